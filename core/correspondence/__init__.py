@@ -1,0 +1,1 @@
+"""Which point of one outline goes where on another."""

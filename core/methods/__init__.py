@@ -1,0 +1,1 @@
+"""How vertices travel from one keyframe to the next."""
