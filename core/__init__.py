@@ -8,14 +8,25 @@ from core.errors import (
     FileFormatError,
     GeometryError,
     InkbetweenError,
+    StorageError,
 )
+from core.io.project import load, save
+from core.methods.plan import METHODS, inbetween, plan
+from core.model.document import Document
 
 __all__ = [
+    "METHODS",
     "Correspondence",
     "CorrespondenceError",
+    "Document",
     "DocumentError",
     "FileFormatError",
     "GeometryError",
     "InkbetweenError",
+    "StorageError",
+    "inbetween",
+    "load",
     "match",
+    "plan",
+    "save",
 ]

@@ -19,3 +19,7 @@ class DocumentError(InkbetweenError):
 
 class FileFormatError(InkbetweenError):
     """A file that is not what it claims to be; the message names the place inside it."""
+
+
+class StorageError(InkbetweenError):
+    """A file or folder that cannot be read or written; what was on the disk is as it was."""

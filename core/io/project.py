@@ -1,0 +1,307 @@
+"""The project file, `.inkb`: UTF-8 JSON with a version, read strictly and written atomically.
+
+What each field means is in docs/file-format.md. The structs here are the file; the classes of core.model are the
+document. They are kept apart so that either can change without the other.
+"""
+
+import os
+import tempfile
+from collections.abc import Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import Annotated, Literal
+
+import msgspec
+import numpy as np
+
+from core.correspondence.pairing import Correspondence
+from core.errors import FileFormatError, InkbetweenError, StorageError
+from core.model.document import Anchor, Document, Keyframe, Layer, OutlinePair, Span, Stage
+from core.model.drawing import Drawing, Outline, Style
+from core.model.easing import Easing
+
+FORMAT = "inkbetween"
+VERSION = 1
+SUFFIX = ".inkb"
+LARGEST_FILE = 512 * 1024 * 1024
+
+Number = float
+Point = tuple[Number, Number]
+Id = Annotated[int, msgspec.Meta(ge=1, le=2**31 - 1)]
+
+
+class _Struct(msgspec.Struct, forbid_unknown_fields=True):
+    """A part of the file: unknown fields are errors."""
+
+
+class _Correspondence(_Struct):
+    before: Annotated[list[Number], msgspec.Meta(min_length=1)]
+    after: Annotated[list[Number], msgspec.Meta(min_length=1)]
+    counts: tuple[int, int]
+    closed: bool
+    flipped: bool
+
+
+class _Pair(_Struct, omit_defaults=True):
+    before: Id
+    after: Id
+    anchors: list[Point] = []
+    correspondence: _Correspondence | None = None
+
+
+class _Span(_Struct):
+    method: str
+    easing: tuple[Number, Number, Number, Number]
+    turns: int
+    pairs: list[_Pair]
+
+
+class _Outline(_Struct):
+    id: Id
+    closed: bool
+    points: list[Point]
+
+
+class _Style(_Struct):
+    fill: str | None
+    stroke: str | None
+    width: Number
+
+
+class _Drawing(_Struct):
+    style: _Style
+    outlines: list[_Outline]
+
+
+class _Keyframe(_Struct):
+    frame: int
+    drawing: _Drawing
+    span: _Span
+
+
+class _Layer(_Struct):
+    id: Id
+    name: Annotated[str, msgspec.Meta(max_length=1000)]
+    visible: bool
+    keyframes: list[_Keyframe]
+
+
+class _Stage(_Struct):
+    width: int
+    height: int
+    background: str | None
+
+
+class _Project(_Struct):
+    format: Literal["inkbetween"]
+    version: int
+    stage: _Stage
+    rate: tuple[int, int]
+    length: int
+    layers: list[_Layer]
+
+
+class _Head(msgspec.Struct):
+    """Just enough to tell a foreign file and a newer version from a broken one."""
+
+    format: str = ""
+    version: int = 0
+
+
+def load(path: str | os.PathLike[str]) -> Document:
+    """Read a project file.
+
+    Raises
+    ------
+    StorageError
+        If the file cannot be read.
+    FileFormatError
+        If it is no project, is damaged, or was written by a newer version; the message names the place.
+    """
+    file = Path(path)
+    try:
+        if file.stat().st_size > LARGEST_FILE:
+            raise FileFormatError(f"{file.name} is larger than {LARGEST_FILE // 2**20} MB: no project of ours")
+        content = file.read_bytes()
+    except OSError as e:
+        raise StorageError(f"cannot read {file}: {_reason(e)}") from e
+    try:
+        return decode(content)
+    except FileFormatError as e:
+        raise FileFormatError(f"cannot open {file.name}: {e}") from None
+
+
+def save(document: Document, path: str | os.PathLike[str]) -> None:
+    """Write a project file: whole, or not at all.
+
+    The bytes go to a temporary file in the same folder, are forced to the disk, and take the old file's place in
+    one step; until then the old file is untouched.
+
+    Raises
+    ------
+    StorageError
+        If the folder cannot be written or the disk is full; the old file is as it was.
+    """
+    write_atomically(Path(path), encode(document))
+
+
+def write_atomically(path: Path, content: bytes) -> None:
+    """Put `content` into `path` in one step; raises StorageError and leaves the old file if it cannot."""
+    target = path.resolve()  # a link stays a link, its target is replaced
+    temporary = ""
+    try:
+        mode = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()
+        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:100]}.", suffix=".part")
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(temporary, mode)
+        os.replace(temporary, target)
+        _sync_folder(target.parent)
+    except OSError as e:
+        if temporary:
+            Path(temporary).unlink(missing_ok=True)
+        raise StorageError(f"cannot write {path}: {_reason(e)}") from e
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def _sync_folder(folder: Path) -> None:
+    """Make the renaming itself survive a power cut, where the system can."""
+    if os.name != "posix":
+        return
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
+
+
+def _reason(error: OSError) -> str:
+    return (error.strerror or str(error)).lower()
+
+
+def encode(document: Document) -> bytes:
+    """Return the bytes of the project file; the same document gives the same bytes."""
+    return msgspec.json.encode(_to_file(document)) + b"\n"
+
+
+def decode(content: bytes) -> Document:
+    """Return the document in the bytes of a project file; raises FileFormatError that names the place."""
+    try:
+        head = msgspec.json.decode(content, type=_Head)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as e:
+        raise FileFormatError(f"it is no Inkbetween project, or it is damaged ({e})") from None
+    if head.format != FORMAT:
+        raise FileFormatError("it is no Inkbetween project")
+    if head.version > VERSION:
+        raise FileFormatError(
+            f"it was written by a newer Inkbetween (file version {head.version}, this one reads up to {VERSION}); "
+            "update Inkbetween to open it"
+        )
+    if head.version < 1:
+        raise FileFormatError(f"its version is {head.version}; the first one is 1")
+    try:
+        project = msgspec.json.decode(content, type=_Project)
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as e:
+        raise FileFormatError(str(e)) from None
+    return _from_file(project)
+
+
+def _to_file(document: Document) -> _Project:
+    stage = _Stage(document.stage.width, document.stage.height, document.stage.background)
+    layers = [
+        _Layer(layer.id, layer.name, layer.visible, [_keyframe_to_file(k) for k in layer.keyframes])
+        for layer in document.layers
+    ]
+    rate = (document.rate.numerator, document.rate.denominator)
+    return _Project(FORMAT, VERSION, stage, rate, document.length, layers)
+
+
+def _keyframe_to_file(keyframe: Keyframe) -> _Keyframe:
+    drawing, style, span = keyframe.drawing, keyframe.drawing.style, keyframe.span
+    outlines = [_Outline(o.id, o.closed, o.points.tolist()) for o in drawing.outlines]
+    easing = span.easing
+    return _Keyframe(
+        keyframe.frame,
+        _Drawing(_Style(style.fill, style.stroke, style.width), outlines),
+        _Span(
+            span.method,
+            (easing.x1, easing.y1, easing.x2, easing.y2),
+            span.turns,
+            [_pair_to_file(p) for p in span.pairs],
+        ),
+    )
+
+
+def _pair_to_file(pair: OutlinePair) -> _Pair:
+    c = pair.correspondence
+    kept = None
+    if c is not None:
+        kept = _Correspondence(c.before.tolist(), c.after.tolist(), c.counts, c.closed, c.flipped)
+    return _Pair(pair.before, pair.after, [(x.before, x.after) for x in pair.anchors], kept)
+
+
+def _from_file(project: _Project) -> Document:
+    with _place("stage"):
+        stage = Stage(project.stage.width, project.stage.height, project.stage.background)
+    with _place("rate"):
+        if project.rate[1] < 1:
+            raise FileFormatError("the lower number must be 1 or more")
+        rate = Fraction(*project.rate)
+    layers = []
+    for i, layer in enumerate(project.layers):
+        keyframes = tuple(_keyframe_from_file(k, f"layers[{i}].keyframes[{j}]") for j, k in enumerate(layer.keyframes))
+        with _place(f"layers[{i}]"):
+            layers.append(Layer(layer.id, layer.name, layer.visible, keyframes))
+    with _place(""):
+        return Document(stage, rate, project.length, tuple(layers))
+
+
+def _keyframe_from_file(keyframe: _Keyframe, where: str) -> Keyframe:
+    outlines = []
+    for i, o in enumerate(keyframe.drawing.outlines):
+        with _place(f"{where}.drawing.outlines[{i}]"):
+            points = np.array(o.points, dtype=np.float64).reshape(-1, 2)
+            outlines.append(Outline(o.id, points, o.closed))
+    with _place(f"{where}.drawing"):
+        style = keyframe.drawing.style
+        drawing = Drawing(tuple(outlines), Style(style.fill, style.stroke, style.width))
+    pairs = [_pair_from_file(p, f"{where}.span.pairs[{i}]") for i, p in enumerate(keyframe.span.pairs)]
+    with _place(f"{where}.span"):
+        span = Span(keyframe.span.method, Easing(*keyframe.span.easing), keyframe.span.turns, tuple(pairs))
+    with _place(where):
+        return Keyframe(keyframe.frame, drawing, span)
+
+
+def _pair_from_file(pair: _Pair, where: str) -> OutlinePair:
+    c = pair.correspondence
+    with _place(where):
+        kept = None
+        if c is not None:
+            kept = Correspondence(np.array(c.before), np.array(c.after), c.counts, c.closed, c.flipped)
+        return OutlinePair(pair.before, pair.after, _anchors(pair.anchors), kept)
+
+
+def _anchors(points: Sequence[Point]) -> tuple[Anchor, ...]:
+    return tuple(Anchor(*p) for p in points)
+
+
+class _place:  # noqa: N801 - reads as a statement
+    """Put the place in the file in front of what is wrong there."""
+
+    def __init__(self, where: str) -> None:
+        self.where = where
+
+    def __enter__(self) -> None:
+        return None
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        if isinstance(error, InkbetweenError):
+            path = f" - at `$.{self.where}`" if self.where else ""
+            raise FileFormatError(f"{error}{path}") from None

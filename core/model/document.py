@@ -1,0 +1,226 @@
+"""The document: layers of keyframes on a stage. Immutable; edits make a new one (see edits.py)."""
+
+import math
+from bisect import bisect_right
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import NamedTuple
+
+from core.correspondence.pairing import Correspondence
+from core.errors import DocumentError
+from core.methods.plan import METHODS
+from core.model.drawing import Color, Drawing, as_color
+from core.model.easing import Easing
+
+LARGEST_STAGE = 16_384
+LONGEST = 100_000
+FASTEST = 1000
+MOST_TURNS = 100
+
+
+class Anchor(NamedTuple):
+    """One pair of points fixed by the artist: positions on the outlines before and after."""
+
+    before: float
+    after: float
+
+
+@dataclass(frozen=True, slots=True)
+class OutlinePair:
+    """Two outlines of a span that belong together, by the artist's hand.
+
+    Attributes
+    ----------
+    before, after : int
+        Ids of the outlines in the keyframe before and the keyframe after.
+    anchors : tuple of Anchor
+        In the order they were made.
+    correspondence : Correspondence or None
+        A correspondence that is kept as it is; None: solved when needed.
+    """
+
+    before: int
+    after: int
+    anchors: tuple[Anchor, ...] = ()
+    correspondence: Correspondence | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """How one keyframe becomes the next.
+
+    Attributes
+    ----------
+    method : str
+        How vertices travel; one of `core.METHODS`.
+    easing : Easing
+    turns : int
+        Extra whole turns, clockwise on the stage when positive.
+    pairs : tuple of OutlinePair
+        Only what the artist fixed; the other outlines are paired automatically. Pairs whose outlines are gone
+        are ignored.
+    """
+
+    method: str = "intrinsic"
+    easing: Easing = field(default_factory=Easing)
+    turns: int = 0
+    pairs: tuple[OutlinePair, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.method not in METHODS:
+            raise DocumentError(f"unknown method {self.method!r}; known are {', '.join(METHODS)}")
+        if abs(self.turns) > MOST_TURNS:
+            raise DocumentError(f"{self.turns} extra turns; the limit is {MOST_TURNS}")
+        for side in ("before", "after"):
+            ids = [getattr(p, side) for p in self.pairs]
+            if len(set(ids)) < len(ids):
+                raise DocumentError(f"an outline {side} is in two pairs of one span")
+
+    def pair_of(self, before: int, after: int) -> OutlinePair | None:
+        """Return the pair of these two outlines if the artist made one."""
+        return next((p for p in self.pairs if (p.before, p.after) == (before, after)), None)
+
+
+@dataclass(frozen=True, slots=True)
+class Keyframe:
+    """A drawing made by the artist at a frame, and the span that begins there.
+
+    Attributes
+    ----------
+    frame : int
+        From 1.
+    drawing : Drawing
+    span : Span
+        To the next keyframe; without effect on the last one, yet kept, so that nothing is lost when keys move.
+    """
+
+    frame: int
+    drawing: Drawing = field(default_factory=Drawing)
+    span: Span = field(default_factory=Span)
+
+    def __post_init__(self) -> None:
+        if not 1 <= self.frame <= LONGEST:
+            raise DocumentError(f"a keyframe at frame {self.frame}; frames run from 1 to {LONGEST}")
+
+
+@dataclass(frozen=True, slots=True)
+class Layer:
+    """Keyframes in order of frame.
+
+    Attributes
+    ----------
+    id : int
+        Unique in the document.
+    name : str
+    visible : bool
+    keyframes : tuple of Keyframe
+        Frames strictly rising.
+    """
+
+    id: int
+    name: str = "Layer 1"
+    visible: bool = True
+    keyframes: tuple[Keyframe, ...] = ()
+
+    def __post_init__(self) -> None:
+        frames = self.frames()
+        for earlier, later in zip(frames, frames[1:], strict=False):
+            if later <= earlier:
+                raise DocumentError(f"layer {self.name!r} has a keyframe at {later} after one at {earlier}")
+
+    def frames(self) -> tuple[int, ...]:
+        """Return the frames of the keyframes."""
+        return tuple(k.frame for k in self.keyframes)
+
+    def keyframe_at(self, frame: int) -> Keyframe | None:
+        """Return the keyframe at exactly that frame."""
+        return next((k for k in self.keyframes if k.frame == frame), None)
+
+    def around(self, frame: float) -> tuple[Keyframe | None, Keyframe | None]:
+        """Return the keyframes of the span that `frame` lies in.
+
+        On a keyframe the span that begins there, but on the last one the span that ends there. Outside the
+        keyframes only the nearest one is given: (last, None) behind them, (None, first) in front.
+        """
+        k = self.keyframes
+        if not k:
+            return None, None
+        i = bisect_right(self.frames(), frame)
+        if i == len(k) and frame == k[-1].frame and len(k) > 1:
+            i -= 1
+        return (k[i - 1] if i else None), (k[i] if i < len(k) else None)
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """The paper: its size in px and its colour (None: transparent)."""
+
+    width: int = 1920
+    height: int = 1080
+    background: Color | None = None
+
+    def __post_init__(self) -> None:
+        for name, value in (("wide", self.width), ("high", self.height)):
+            if not 1 <= value <= LARGEST_STAGE:
+                raise DocumentError(f"the stage is {value} px {name}; it must be 1 to {LARGEST_STAGE}")
+        if self.background is not None:
+            object.__setattr__(self, "background", as_color(self.background, name="background"))
+
+
+@dataclass(frozen=True, slots=True)
+class Document:
+    """Everything that is saved.
+
+    Attributes
+    ----------
+    stage : Stage
+    rate : Fraction
+        Frames a second, above 0, at most 1000.
+    length : int
+        Number of frames; the film runs from frame 1 to `length`. Keyframes behind it are kept and not shown.
+    layers : tuple of Layer
+        From the back to the front; ids differ.
+    """
+
+    stage: Stage = field(default_factory=Stage)
+    rate: Fraction = Fraction(24)
+    length: int = 24
+    layers: tuple[Layer, ...] = (Layer(1),)
+
+    def __post_init__(self) -> None:
+        if not 0 < self.rate <= FASTEST:
+            raise DocumentError(f"the frame rate is {self.rate}; it must be above 0 and at most {FASTEST}")
+        if not 1 <= self.length <= LONGEST:
+            raise DocumentError(f"the film has {self.length} frames; it must have 1 to {LONGEST}")
+        ids = [layer.id for layer in self.layers]
+        if len(set(ids)) < len(ids):
+            raise DocumentError("two layers have the same id")
+
+    def layer(self, layer_id: int) -> Layer:
+        """Return the layer with that id, or raise DocumentError."""
+        for layer in self.layers:
+            if layer.id == layer_id:
+                return layer
+        raise DocumentError(f"the document has no layer {layer_id}")
+
+    def with_layer(self, layer: Layer) -> "Document":
+        """Return a document with `layer` in place of the one with its id; the same one if nothing changed."""
+        if self.layer(layer.id) is layer:
+            return self
+        return replace(self, layers=tuple(layer if x.id == layer.id else x for x in self.layers))
+
+
+def ratio_in_span(before: Keyframe, after: Keyframe, frame: float) -> float:
+    """Return the linear time of `frame` in the span, 0 at the keyframe before and 1 at the one after."""
+    return (frame - before.frame) / (after.frame - before.frame)
+
+
+def as_rate(text: str) -> Fraction:
+    """Return a frame rate from "24", "23.976" or "24000/1001"; raises DocumentError with one sentence."""
+    try:
+        rate = Fraction(text.strip())
+    except (ValueError, ZeroDivisionError):
+        raise DocumentError(f"{text!r} is no frame rate; write 24, 29.97 or 30000/1001") from None
+    if not 0 < rate <= FASTEST or not math.isfinite(rate):
+        raise DocumentError(f"the frame rate is {text}; it must be above 0 and at most {FASTEST}")
+    return rate.limit_denominator(100_000)

@@ -1,0 +1,392 @@
+"""Every edit of a document: a function from document to document that raises before anything changes.
+
+An edit that changes nothing returns the very same document. Where vertices are added or taken away, the anchors
+of the spans on both sides stay at their places on the outline.
+"""
+
+from bisect import insort
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import numpy.typing as npt
+
+from core.correspondence.pairing import ordered_anchors
+from core.errors import CorrespondenceError, DocumentError
+from core.geometry.outline import FloatArray, lengths_at, points_at
+from core.model.document import Anchor, Document, Keyframe, Layer, OutlinePair, Span, Stage
+from core.model.drawing import Drawing, Outline, Style
+from core.model.easing import Easing
+
+Positions = Callable[[float], float]
+
+
+def set_stage(document: Document, stage: Stage) -> Document:
+    """Give the stage another size or colour; drawings stay where they are."""
+    return document if stage == document.stage else replace(document, stage=stage)
+
+
+def set_rate(document: Document, rate: Fraction) -> Document:
+    """Set the frames a second."""
+    return document if rate == document.rate else replace(document, rate=rate)
+
+
+def set_length(document: Document, length: int) -> Document:
+    """Set the number of frames; keyframes behind the end are kept."""
+    return document if length == document.length else replace(document, length=length)
+
+
+def set_layer(document: Document, layer_id: int, *, name: str | None = None, visible: bool | None = None) -> Document:
+    """Rename a layer, show or hide it."""
+    layer = document.layer(layer_id)
+    changed = replace(
+        layer,
+        name=layer.name if name is None else name,
+        visible=layer.visible if visible is None else visible,
+    )
+    return document if changed == layer else document.with_layer(changed)
+
+
+def put_drawing(document: Document, layer_id: int, frame: int, drawing: Drawing) -> Document:
+    """Make `drawing` the keyframe at `frame`, new or in place of the one that is there.
+
+    A new keyframe inside a span takes its method and easing; a film that is too short grows to the frame.
+    """
+    layer = document.layer(layer_id)
+    old = layer.keyframe_at(frame)
+    if old is not None:
+        if old.drawing == drawing:
+            return document
+        return _with_keyframe(document, layer, replace(old, drawing=drawing))
+    earlier = [k for k in layer.keyframes if k.frame < frame]
+    neighbour = earlier[-1] if earlier else (layer.keyframes[0] if layer.keyframes else None)
+    span = replace(neighbour.span, pairs=(), turns=0) if neighbour else Span()
+    keyframes = list(layer.keyframes)
+    insort(keyframes, Keyframe(frame, drawing, span), key=lambda k: k.frame)
+    document = _with_keyframes(document, layer, keyframes)
+    return set_length(document, max(document.length, frame))
+
+
+def delete_keyframe(document: Document, layer_id: int, frame: int) -> Document:
+    """Take a keyframe away; the spans on both sides become one."""
+    layer = document.layer(layer_id)
+    _keyframe(layer, frame)
+    return _with_keyframes(document, layer, [k for k in layer.keyframes if k.frame != frame])
+
+
+def move_keyframe(document: Document, layer_id: int, frame: int, to: int) -> Document:
+    """Move a keyframe to another, free frame, also past others."""
+    layer = document.layer(layer_id)
+    keyframe = _keyframe(layer, frame)
+    if to == frame:
+        return document
+    if layer.keyframe_at(to) is not None:
+        raise DocumentError(f"frame {to} of {layer.name!r} already holds a keyframe")
+    rest = [k for k in layer.keyframes if k.frame != frame]
+    insort(rest, replace(keyframe, frame=to), key=lambda k: k.frame)
+    document = _with_keyframes(document, layer, rest)
+    return set_length(document, max(document.length, to))
+
+
+def add_outline(
+    document: Document, layer_id: int, frame: int, points: npt.ArrayLike, *, closed: bool = True
+) -> Document:
+    """Add an outline to the drawing at `frame`; where no keyframe is, one is made.
+
+    A new keyframe is painted like the nearest keyframe before it, else the one after it.
+    """
+    layer = document.layer(layer_id)
+    keyframe = layer.keyframe_at(frame)
+    if keyframe is None:
+        drawing = Drawing(style=_style_near(layer, frame))
+    else:
+        drawing = keyframe.drawing
+    outline = Outline(drawing.free_id(), np.asarray(points, dtype=np.float64), closed)
+    return put_drawing(document, layer_id, frame, drawing.with_outline(outline))
+
+
+def move_vertices(document: Document, layer_id: int, frame: int, points: Mapping[int, FloatArray]) -> Document:
+    """Give outlines new vertex places, {outline id: (n, 2)}; vertex counts stay."""
+    layer = document.layer(layer_id)
+    keyframe = _keyframe(layer, frame)
+    drawing = keyframe.drawing
+    for outline_id, moved in points.items():
+        outline = drawing.outline(outline_id)
+        if len(moved) != len(outline.points):
+            raise DocumentError(
+                f"outline {outline_id} has {len(outline.points)} vertices, the moved one has {len(moved)}"
+            )
+        if not np.array_equal(moved, outline.points):
+            drawing = drawing.with_outline(replace(outline, points=moved))
+    if drawing is keyframe.drawing:
+        return document
+    return _with_keyframe(document, layer, replace(keyframe, drawing=drawing))
+
+
+def insert_vertex(document: Document, layer_id: int, frame: int, outline_id: int, position: float) -> Document:
+    """Put a vertex on an outline at a position inside an edge; its shape stays."""
+    layer = document.layer(layer_id)
+    keyframe = _keyframe(layer, frame)
+    outline = keyframe.drawing.outline(outline_id)
+    edge = int(position)
+    if position == edge:
+        return document
+    place = points_at(outline.points, np.array([position]), closed=outline.closed)
+    points = np.insert(outline.points, edge + 1, place, axis=0)
+
+    def moved(at: float) -> float:
+        if at <= edge:
+            return at
+        if at >= edge + 1:
+            return at + 1
+        share = position - edge
+        along = at - edge
+        return edge + along / share if along <= share else edge + 1 + (along - share) / (1 - share)
+
+    drawing = keyframe.drawing.with_outline(replace(outline, points=points))
+    return _with_changed_outline(document, layer, replace(keyframe, drawing=drawing), outline_id, moved)
+
+
+def delete_vertices(document: Document, layer_id: int, frame: int, indices: Mapping[int, Iterable[int]]) -> Document:
+    """Take vertices away, {outline id: indices}; an outline left with too few goes as a whole."""
+    for outline_id, gone in indices.items():
+        layer = document.layer(layer_id)
+        keyframe = _keyframe(layer, frame)
+        outline = keyframe.drawing.outline(outline_id)
+        keep = np.setdiff1d(np.arange(len(outline.points)), np.fromiter(gone, dtype=np.intp))
+        if len(keep) == len(outline.points):
+            continue
+        if len(keep) < (3 if outline.closed else 2):
+            document = delete_outline(document, layer_id, frame, outline_id)
+            continue
+        changed = replace(keyframe, drawing=keyframe.drawing.with_outline(replace(outline, points=outline.points[keep])))
+        document = _with_changed_outline(document, layer, changed, outline_id, _kept_positions(outline, keep))
+    return document
+
+
+def delete_outline(document: Document, layer_id: int, frame: int, outline_id: int) -> Document:
+    """Take one outline out of a drawing; the last one takes the keyframe with it."""
+    layer = document.layer(layer_id)
+    keyframe = _keyframe(layer, frame)
+    drawing = keyframe.drawing.without_outline(outline_id)
+    if not drawing.outlines:
+        return delete_keyframe(document, layer_id, frame)
+    document = _with_keyframe(document, layer, replace(keyframe, drawing=drawing))
+    return _in_both_spans(document, layer_id, frame, lambda pair, mine: None if mine(pair) == outline_id else pair)
+
+
+def set_style(document: Document, layer_id: int, frame: int, style: Style) -> Document:
+    """Paint the drawing at `frame` differently."""
+    layer = document.layer(layer_id)
+    keyframe = _keyframe(layer, frame)
+    if keyframe.drawing.style == style:
+        return document
+    return _with_keyframe(document, layer, replace(keyframe, drawing=replace(keyframe.drawing, style=style)))
+
+
+def set_span(
+    document: Document,
+    layer_id: int,
+    frame: int,
+    *,
+    method: str | None = None,
+    easing: Easing | None = None,
+    turns: int | None = None,
+) -> Document:
+    """Change how the span that begins at `frame` moves."""
+    layer = document.layer(layer_id)
+    keyframe = _keyframe(layer, frame)
+    span = keyframe.span
+    changed = replace(
+        span,
+        method=span.method if method is None else method,
+        easing=span.easing if easing is None else easing,
+        turns=span.turns if turns is None else turns,
+    )
+    return document if changed == span else _with_keyframe(document, layer, replace(keyframe, span=changed))
+
+
+def add_anchor(
+    document: Document, layer_id: int, frame: int, before_id: int, after_id: int, anchor: Anchor
+) -> Document:
+    """Fix a pair of points in the span that begins at `frame`.
+
+    An anchor that starts or ends at the same point as an old one takes its place. If either outline was paired
+    with another one, that pair is given up.
+
+    Raises
+    ------
+    CorrespondenceError
+        If it crosses another anchor.
+    """
+    old = _span(document, layer_id, frame).pair_of(before_id, after_id)
+    kept = tuple(x for x in old.anchors if x.before != anchor.before and x.after != anchor.after) if old else ()
+    return _set_anchors(document, layer_id, frame, before_id, after_id, (*kept, anchor))
+
+
+def move_anchor(
+    document: Document, layer_id: int, frame: int, before_id: int, after_id: int, index: int, anchor: Anchor
+) -> Document:
+    """Put the anchor number `index` of a pair elsewhere on the two outlines; raises as `add_anchor` does."""
+    anchors = list(_anchors(document, layer_id, frame, before_id, after_id))
+    if anchors[index] == anchor:
+        return document
+    anchors[index] = anchor
+    return _set_anchors(document, layer_id, frame, before_id, after_id, tuple(anchors))
+
+
+def delete_anchor(
+    document: Document, layer_id: int, frame: int, before_id: int, after_id: int, index: int
+) -> Document:
+    """Take one anchor away; the pair of outlines stays."""
+    anchors = _anchors(document, layer_id, frame, before_id, after_id)
+    rest = anchors[:index] + anchors[index + 1 :]
+    return _set_anchors(document, layer_id, frame, before_id, after_id, rest)
+
+
+def clear_anchors(document: Document, layer_id: int, frame: int) -> Document:
+    """Forget every anchor and hand-made pair of a span."""
+    layer = document.layer(layer_id)
+    keyframe = _keyframe(layer, frame)
+    if not keyframe.span.pairs:
+        return document
+    return _with_keyframe(document, layer, replace(keyframe, span=replace(keyframe.span, pairs=())))
+
+
+def _keyframe(layer: Layer, frame: int) -> Keyframe:
+    keyframe = layer.keyframe_at(frame)
+    if keyframe is None:
+        raise DocumentError(f"layer {layer.name!r} has no keyframe at frame {frame}")
+    return keyframe
+
+
+def _span(document: Document, layer_id: int, frame: int) -> Span:
+    return _keyframe(document.layer(layer_id), frame).span
+
+
+def _style_near(layer: Layer, frame: int) -> Style:
+    before, after = layer.around(frame)
+    near = before or after
+    return near.drawing.style if near else Style()
+
+
+def _with_keyframe(document: Document, layer: Layer, keyframe: Keyframe) -> Document:
+    keyframes = tuple(keyframe if k.frame == keyframe.frame else k for k in layer.keyframes)
+    return document.with_layer(replace(layer, keyframes=keyframes))
+
+
+def _with_keyframes(document: Document, layer: Layer, keyframes: list[Keyframe]) -> Document:
+    """Set all keyframes; a span whose keyframe after is another one now forgets its pairs."""
+    followers = {id(a.drawing): b.drawing for a, b in zip(layer.keyframes, layer.keyframes[1:], strict=False)}
+    renewed = []
+    for i, k in enumerate(keyframes):
+        follower = keyframes[i + 1].drawing if i + 1 < len(keyframes) else None
+        if k.span.pairs and followers.get(id(k.drawing)) is not follower:
+            k = replace(k, span=replace(k.span, pairs=()))
+        renewed.append(k)
+    return document.with_layer(replace(layer, keyframes=tuple(renewed)))
+
+
+def _with_changed_outline(
+    document: Document, layer: Layer, keyframe: Keyframe, outline_id: int, moved: Positions
+) -> Document:
+    """Set a keyframe in which one outline got other vertices, and carry the anchors on it along."""
+    document = _with_keyframe(document, layer, keyframe)
+
+    def carried(pair: OutlinePair, mine: Callable[[OutlinePair], int]) -> OutlinePair:
+        if mine(pair) != outline_id:
+            return pair
+        side = "before" if mine is _before_id else "after"
+        anchors = tuple(x._replace(**{side: moved(getattr(x, side))}) for x in pair.anchors)
+        return replace(pair, anchors=anchors, correspondence=None)
+
+    return _in_both_spans(document, layer.id, keyframe.frame, carried)
+
+
+def _before_id(pair: OutlinePair) -> int:
+    return pair.before
+
+
+def _after_id(pair: OutlinePair) -> int:
+    return pair.after
+
+
+def _in_both_spans(
+    document: Document,
+    layer_id: int,
+    frame: int,
+    change: Callable[[OutlinePair, Callable[[OutlinePair], int]], OutlinePair | None],
+) -> Document:
+    """Apply `change` to the pairs of the span that begins at `frame` and of the one that ends there."""
+    layer = document.layer(layer_id)
+    here = layer.frames().index(frame)
+    for i, mine in ((here, _before_id), (here - 1, _after_id)):
+        if i < 0 or not layer.keyframes[i].span.pairs:
+            continue
+        keyframe = layer.keyframes[i]
+        pairs = tuple(p for p in (change(pair, mine) for pair in keyframe.span.pairs) if p is not None)
+        if pairs != keyframe.span.pairs:
+            document = _with_keyframe(document, layer, replace(keyframe, span=replace(keyframe.span, pairs=pairs)))
+            layer = document.layer(layer_id)
+    return document
+
+
+def _kept_positions(outline: Outline, keep: npt.NDArray[np.intp]) -> Positions:
+    """From a position on the outline to the one at the same share of the way between the vertices kept."""
+    n, closed = len(outline.points), outline.closed
+    old = keep.astype(np.float64)
+    new = np.arange(len(keep), dtype=np.float64)
+    if closed:
+        old, new = np.append(old, old[0] + n), np.append(new, len(keep))
+    whole = float(lengths_at(outline.points, np.array([n if closed else n - 1]), closed=closed)[0])
+
+    def length(at: FloatArray) -> FloatArray:
+        rounds = np.floor(at / n) if closed else np.zeros_like(at)
+        return lengths_at(outline.points, at - rounds * n, closed=closed) + rounds * whole
+
+    marks = length(old)
+
+    def moved(at: float) -> float:
+        lifted = at + n if closed and at < old[0] else at
+        exact = np.flatnonzero(old == lifted)
+        if len(exact):
+            place = float(new[exact[0]])
+        else:
+            place = float(np.interp(length(np.array([lifted])), marks, new)[0])
+        return place % len(keep) if closed else place
+
+    return moved
+
+
+def _anchors(
+    document: Document, layer_id: int, frame: int, before_id: int, after_id: int
+) -> tuple[Anchor, ...]:
+    pair = _span(document, layer_id, frame).pair_of(before_id, after_id)
+    if pair is None:
+        raise DocumentError(f"outlines {before_id} and {after_id} have no anchors in the span at frame {frame}")
+    return pair.anchors
+
+
+def _set_anchors(
+    document: Document,
+    layer_id: int,
+    frame: int,
+    before_id: int,
+    after_id: int,
+    anchors: tuple[Anchor, ...],
+) -> Document:
+    layer = document.layer(layer_id)
+    keyframe = _keyframe(layer, frame)
+    following = [k for k in layer.keyframes if k.frame > frame]
+    if not following:
+        raise DocumentError(f"no span begins at frame {frame}: it holds the last keyframe")
+    a = keyframe.drawing.outline(before_id)
+    b = following[0].drawing.outline(after_id)
+    if a.closed != b.closed:
+        raise CorrespondenceError("a closed outline cannot correspond to an open one")
+    ordered_anchors(anchors, (len(a.points), len(b.points)), closed=a.closed)
+    others = tuple(p for p in keyframe.span.pairs if p.before != before_id and p.after != after_id)
+    pair = OutlinePair(before_id, after_id, anchors)
+    span = replace(keyframe.span, pairs=(*others, pair))
+    return _with_keyframe(document, layer, replace(keyframe, span=span))

@@ -1,0 +1,233 @@
+"""From a document to the picture of a frame: matched once, planned once, evaluated often."""
+
+from collections import OrderedDict
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.correspondence.matching import match
+from core.correspondence.pairing import Correspondence
+from core.geometry.outline import FloatArray, locate, points_at
+from core.methods.plan import AlignedPair, DrawingPlan, plan_drawing
+from core.model.color import mix_colors
+from core.model.document import Document, Keyframe, Layer, Span, ratio_in_span
+from core.model.drawing import Drawing, Outline, Style
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Picture:
+    """What one layer shows at one frame.
+
+    Attributes
+    ----------
+    outlines : tuple of ((n, 2) float array, bool)
+        Vertices in stage px, and whether the outline is closed.
+    style : Style
+    """
+
+    outlines: tuple[tuple[FloatArray, bool], ...]
+    style: Style
+
+
+@dataclass(frozen=True, slots=True)
+class PairMatch:
+    """Two outlines by id and their correspondence."""
+
+    before: int
+    after: int
+    correspondence: Correspondence
+
+
+@dataclass(frozen=True, slots=True)
+class SpanMatch:
+    """Every correspondence of a span; outlines named nowhere here have no partner."""
+
+    pairs: tuple[PairMatch, ...]
+
+    def of(self, before: int, after: int) -> Correspondence | None:
+        """Return the correspondence of these two outlines, if they are a pair."""
+        return next((p.correspondence for p in self.pairs if (p.before, p.after) == (before, after)), None)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Link:
+    """One outline of the in-between, and where its vertices come from.
+
+    Attributes
+    ----------
+    before, after : int or None
+        Ids of the outlines; None where it grows out of a point or shrinks into one.
+    before_positions, after_positions : (k,) float array
+        Of every vertex, on the two outlines; empty on the side that is a point.
+    aligned : AlignedPair
+        The same vertices in stage px at both ends.
+    """
+
+    before: int | None
+    after: int | None
+    before_positions: FloatArray
+    after_positions: FloatArray
+    aligned: AlignedPair
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SpanPlan:
+    """Everything about a span that does not depend on t."""
+
+    links: tuple[Link, ...]
+    paths: DrawingPlan
+    styles: tuple[Style, Style]
+
+    def picture(self, t: float) -> Picture:
+        """Return the in-between at the eased t (0 and 1 give the keyframes' shapes)."""
+        frames = self.paths.evaluate(np.array([t]))
+        closed = (link.aligned.closed for link in self.links)
+        outlines = tuple((f[0], c) for f, c in zip(frames, closed, strict=True))
+        return Picture(outlines, mix_styles(*self.styles, t))
+
+    def frames(self, t: Sequence[float]) -> tuple[FloatArray, ...]:
+        """Return one (T, k, 2) array an outline for all t at once."""
+        return self.paths.evaluate(np.asarray(t, dtype=np.float64))
+
+
+def mix_styles(before: Style, after: Style, t: float) -> Style:
+    """Return the style of an in-between: colours mixed in OKLab, the width linear."""
+    if before == after:
+        return before
+    width = (1 - t) * before.width + t * after.width
+    return Style(
+        mix_colors(before.fill, after.fill, t), mix_colors(before.stroke, after.stroke, t), max(width, 0.0)
+    )
+
+
+def paired_outlines(before: Drawing, after: Drawing, span: Span) -> tuple[tuple[int, int], ...]:
+    """Return the ids of outlines that belong together: those of the artist first, the rest in order of drawing."""
+    fixed = tuple((p.before, p.after) for p in span.pairs if before.has(p.before) and after.has(p.after))
+    taken_before, taken_after = {i for i, _ in fixed}, {j for _, j in fixed}
+    free = []
+    for closed in (True, False):
+        left = (o.id for o in before.outlines if o.closed == closed and o.id not in taken_before)
+        right = (o.id for o in after.outlines if o.closed == closed and o.id not in taken_after)
+        free += list(zip(left, right, strict=False))
+    return fixed + tuple(free)
+
+
+def match_span(before: Drawing, after: Drawing, span: Span) -> SpanMatch:
+    """Solve every correspondence of a span: the slow part of a plan."""
+    pairs = []
+    for i, j in paired_outlines(before, after, span):
+        a, b = before.outline(i), after.outline(j)
+        made = span.pair_of(i, j)
+        kept = made.correspondence if made else None
+        anchors = made.anchors if made else ()
+        closed = a.closed and b.closed
+        pairs.append(PairMatch(i, j, kept or match(a.points, b.points, anchors, closed=closed)))
+    return SpanMatch(tuple(pairs))
+
+
+def plan_span(before: Drawing, after: Drawing, span: Span, matched: SpanMatch | None = None) -> SpanPlan:
+    """Return the plan of a span.
+
+    Parameters
+    ----------
+    before, after : Drawing
+    span : Span
+    matched : SpanMatch, optional
+        Correspondences solved before, also for drawings whose vertices have moved since; solved when omitted.
+
+    Raises
+    ------
+    CorrespondenceError
+        If `matched` is of outlines with other vertex counts, or the anchors cross.
+    """
+    matched = matched or match_span(before, after, span)
+    links = [_paired(before.outline(p.before), after.outline(p.after), p.correspondence) for p in matched.pairs]
+    partnered_before = {p.before for p in matched.pairs}
+    partnered_after = {p.after for p in matched.pairs}
+    links += [_shrinking(o, after) for o in before.outlines if o.id not in partnered_before]
+    links += [_growing(o, before) for o in after.outlines if o.id not in partnered_after]
+    paths = plan_drawing([link.aligned for link in links], method=span.method, turns=span.turns)
+    return SpanPlan(tuple(links), paths, (before.style, after.style))
+
+
+def _paired(a: Outline, b: Outline, correspondence: Correspondence) -> Link:
+    p, q = correspondence.aligned_positions(a.points, b.points)
+    closed = correspondence.closed
+    aligned = AlignedPair(points_at(a.points, p, closed=closed), points_at(b.points, q, closed=closed), closed)
+    return Link(a.id, b.id, p, q, aligned)
+
+
+def _shrinking(outline: Outline, other: Drawing) -> Link:
+    end = np.broadcast_to(_nearest_point(outline, other), outline.points.shape).copy()
+    aligned = AlignedPair(outline.points, end, outline.closed)
+    return Link(outline.id, None, np.arange(len(end), dtype=np.float64), np.zeros(0), aligned)
+
+
+def _growing(outline: Outline, other: Drawing) -> Link:
+    start = np.broadcast_to(_nearest_point(outline, other), outline.points.shape).copy()
+    aligned = AlignedPair(start, outline.points, outline.closed)
+    return Link(None, outline.id, np.zeros(0), np.arange(len(start), dtype=np.float64), aligned)
+
+
+def _nearest_point(outline: Outline, other: Drawing) -> FloatArray:
+    """Return the point of the other drawing nearest to the outline's middle; without a drawing, the middle."""
+    middle = outline.points.mean(axis=0)
+    best, least = middle, np.inf
+    for candidate in other.outlines:
+        position, distance = locate(candidate.points, middle, closed=candidate.closed)
+        if distance[0] < least:
+            best = points_at(candidate.points, position, closed=candidate.closed)[0]
+            least = float(distance[0])
+    return best
+
+
+class PlanCache:
+    """Plans by what they were made of, the longest unused forgotten first.
+
+    Documents share their parts, so an edit leaves the drawings of all other spans the very same objects, and
+    their plans are found here again. `solved` counts how many were made.
+    """
+
+    def __init__(self, capacity: int = 512) -> None:
+        self.capacity = capacity
+        self.solved = 0
+        self._plans: OrderedDict[tuple[int, int, int], tuple[Drawing, Drawing, Span, SpanPlan]] = OrderedDict()
+
+    def plan(self, before: Keyframe, after: Keyframe) -> SpanPlan:
+        """Return the plan of the span between two neighbouring keyframes."""
+        key = (id(before.drawing), id(after.drawing), id(before.span))
+        found = self._plans.get(key)
+        if found is None:
+            self.solved += 1
+            plan = plan_span(before.drawing, after.drawing, before.span)
+            # the parts are kept too, so that no other object can take their ids
+            found = self._plans[key] = (before.drawing, after.drawing, before.span, plan)
+        self._plans.move_to_end(key)
+        while len(self._plans) > self.capacity:
+            self._plans.popitem(last=False)
+        return found[3]
+
+
+def keyframe_picture(drawing: Drawing) -> Picture:
+    """Return the picture of a drawing itself."""
+    return Picture(tuple((o.points, o.closed) for o in drawing.outlines), drawing.style)
+
+
+def picture_at(layer: Layer, frame: float, plans: PlanCache) -> Picture | None:
+    """Return what a layer shows at a frame: nothing before its first keyframe, the last drawing after its last."""
+    keyframe = layer.keyframe_at(int(frame)) if frame == int(frame) else None
+    if keyframe is not None:
+        return keyframe_picture(keyframe.drawing)
+    before, after = layer.around(frame)
+    if before is None:
+        return None
+    if after is None:
+        return keyframe_picture(before.drawing)
+    return plans.plan(before, after).picture(float(before.span.easing.t_at(ratio_in_span(before, after, frame))))
+
+
+def pictures_at(document: Document, frame: float, plans: PlanCache) -> tuple[Picture, ...]:
+    """Return the pictures of all visible layers, from the back to the front."""
+    found = (picture_at(layer, frame, plans) for layer in document.layers if layer.visible)
+    return tuple(p for p in found if p is not None)
