@@ -9,13 +9,17 @@ from core.errors import (
     GeometryError,
     InkbetweenError,
 )
+from core.methods.plan import METHODS, inbetween, plan
 
 __all__ = [
+    "METHODS",
     "Correspondence",
     "CorrespondenceError",
     "DocumentError",
     "FileFormatError",
     "GeometryError",
     "InkbetweenError",
+    "inbetween",
     "match",
+    "plan",
 ]
