@@ -4,23 +4,24 @@ What each field means is in docs/file-format.md. The structs here are the file; 
 document. They are kept apart so that either can change without the other.
 """
 
+import itertools
 import os
 import tempfile
 from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
 import msgspec
 import numpy as np
 
-from core.correspondence.pairing import Correspondence
+from core.correspondence.pairing import Correspondence, ordered_anchors
 from core.errors import FileFormatError, InkbetweenError, StorageError
 from core.model.document import Anchor, Document, Keyframe, Layer, OutlinePair, Span, Stage
 from core.model.drawing import Drawing, Outline, Style
 from core.model.easing import Easing
 
-FORMAT = "inkbetween"
+FORMAT: Final = "inkbetween"
 VERSION = 1
 SUFFIX = ".inkb"
 LARGEST_FILE = 512 * 1024 * 1024
@@ -256,9 +257,12 @@ def _from_file(project: _Project) -> Document:
         rate = Fraction(*project.rate)
     layers = []
     for i, layer in enumerate(project.layers):
-        keyframes = tuple(_keyframe_from_file(k, f"layers[{i}].keyframes[{j}]") for j, k in enumerate(layer.keyframes))
+        keyframes = tuple(
+            _keyframe_from_file(k, f"layers[{i}].keyframes[{j}]") for j, k in enumerate(layer.keyframes)
+        )
         with _place(f"layers[{i}]"):
             layers.append(Layer(layer.id, layer.name, layer.visible, keyframes))
+        _check_pairs(layers[-1], f"layers[{i}]")
     with _place(""):
         return Document(stage, rate, project.length, tuple(layers))
 
@@ -288,11 +292,28 @@ def _pair_from_file(pair: _Pair, where: str) -> OutlinePair:
         return OutlinePair(pair.before, pair.after, _anchors(pair.anchors), kept)
 
 
+def _check_pairs(layer: Layer, where: str) -> None:
+    """Refuse pairs that name no outline of the two keyframes, and anchors that cannot hold."""
+    for j, (k, following) in enumerate(itertools.zip_longest(layer.keyframes, layer.keyframes[1:])):
+        for i, pair in enumerate(k.span.pairs):
+            with _place(f"{where}.keyframes[{j}].span.pairs[{i}]"):
+                if following is None:
+                    raise FileFormatError("a pair of outlines in the span of the last keyframe")
+                a, b = k.drawing.outline(pair.before), following.drawing.outline(pair.after)
+                counts = (len(a.points), len(b.points))
+                if a.closed != b.closed:
+                    raise FileFormatError("a closed outline is paired with an open one")
+                ordered_anchors(pair.anchors, counts, closed=a.closed)
+                c = pair.correspondence
+                if c is not None and (c.counts, c.closed) != (counts, a.closed):
+                    raise FileFormatError(f"a correspondence of {c.counts} vertices for outlines with {counts}")
+
+
 def _anchors(points: Sequence[Point]) -> tuple[Anchor, ...]:
     return tuple(Anchor(*p) for p in points)
 
 
-class _place:  # noqa: N801 - reads as a statement
+class _place:
     """Put the place in the file in front of what is wrong there."""
 
     def __init__(self, where: str) -> None:

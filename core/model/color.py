@@ -37,7 +37,7 @@ def hex_color(channels: FloatArray) -> Color:
 
 
 def mix_colors(before: Color | None, after: Color | None, t: float) -> Color | None:
-    """Return the colour at t between two; None counts as the other one fully transparent. t is clipped to 0 to 1."""
+    """Return the colour at t (clipped to 0 to 1) between two; None counts as the other one, fully transparent."""
     if before is None and after is None:
         return None
     t = min(max(t, 0.0), 1.0)

@@ -1,5 +1,6 @@
 """The document: layers of keyframes on a stage. Immutable; edits make a new one (see edits.py)."""
 
+import itertools
 import math
 from bisect import bisect_right
 from dataclasses import dataclass, field, replace
@@ -124,7 +125,7 @@ class Layer:
 
     def __post_init__(self) -> None:
         frames = self.frames()
-        for earlier, later in zip(frames, frames[1:], strict=False):
+        for earlier, later in itertools.pairwise(frames):
             if later <= earlier:
                 raise DocumentError(f"layer {self.name!r} has a keyframe at {later} after one at {earlier}")
 

@@ -36,7 +36,7 @@ class Style:
         Width of the stroke in stage px, 0 to 10,000.
     """
 
-    fill: Color | None = "#2b2f3a"
+    fill: Color | None = "#7b61e8"
     stroke: Color | None = None
     width: float = 4.0
 

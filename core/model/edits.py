@@ -37,7 +37,9 @@ def set_length(document: Document, length: int) -> Document:
     return document if length == document.length else replace(document, length=length)
 
 
-def set_layer(document: Document, layer_id: int, *, name: str | None = None, visible: bool | None = None) -> Document:
+def set_layer(
+    document: Document, layer_id: int, *, name: str | None = None, visible: bool | None = None
+) -> Document:
     """Rename a layer, show or hide it."""
     layer = document.layer(layer_id)
     changed = replace(
@@ -148,7 +150,9 @@ def insert_vertex(document: Document, layer_id: int, frame: int, outline_id: int
     return _with_changed_outline(document, layer, replace(keyframe, drawing=drawing), outline_id, moved)
 
 
-def delete_vertices(document: Document, layer_id: int, frame: int, indices: Mapping[int, Iterable[int]]) -> Document:
+def delete_vertices(
+    document: Document, layer_id: int, frame: int, indices: Mapping[int, Iterable[int]]
+) -> Document:
     """Take vertices away, {outline id: indices}; an outline left with too few goes as a whole."""
     for outline_id, gone in indices.items():
         layer = document.layer(layer_id)
@@ -160,7 +164,9 @@ def delete_vertices(document: Document, layer_id: int, frame: int, indices: Mapp
         if len(keep) < (3 if outline.closed else 2):
             document = delete_outline(document, layer_id, frame, outline_id)
             continue
-        changed = replace(keyframe, drawing=keyframe.drawing.with_outline(replace(outline, points=outline.points[keep])))
+        changed = replace(
+            keyframe, drawing=keyframe.drawing.with_outline(replace(outline, points=outline.points[keep]))
+        )
         document = _with_changed_outline(document, layer, changed, outline_id, _kept_positions(outline, keep))
     return document
 
@@ -359,9 +365,7 @@ def _kept_positions(outline: Outline, keep: npt.NDArray[np.intp]) -> Positions:
     return moved
 
 
-def _anchors(
-    document: Document, layer_id: int, frame: int, before_id: int, after_id: int
-) -> tuple[Anchor, ...]:
+def _anchors(document: Document, layer_id: int, frame: int, before_id: int, after_id: int) -> tuple[Anchor, ...]:
     pair = _span(document, layer_id, frame).pair_of(before_id, after_id)
     if pair is None:
         raise DocumentError(f"outlines {before_id} and {after_id} have no anchors in the span at frame {frame}")

@@ -172,8 +172,9 @@ def _growing(outline: Outline, other: Drawing) -> Link:
 
 def _nearest_point(outline: Outline, other: Drawing) -> FloatArray:
     """Return the point of the other drawing nearest to the outline's middle; without a drawing, the middle."""
-    middle = outline.points.mean(axis=0)
-    best, least = middle, np.inf
+    middle: FloatArray = outline.points.mean(axis=0)
+    best: FloatArray = middle
+    least = np.inf
     for candidate in other.outlines:
         position, distance = locate(candidate.points, middle, closed=candidate.closed)
         if distance[0] < least:

@@ -1,0 +1,161 @@
+"""Plan once, evaluate often: all that needs thought about a span is done before the first frame is asked for."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from core.errors import GeometryError
+from core.geometry.outline import FloatArray, as_points
+from core.methods.intrinsic import IntrinsicPaths
+from core.methods.linear import LinearPaths
+
+METHODS: tuple[str, ...] = ("linear", "intrinsic")
+"""The names of the methods, from the simplest to the best."""
+
+
+@dataclass(frozen=True, eq=False)
+class AlignedPair:
+    """One outline in both keyframes: left[i] corresponds to right[i].
+
+    Attributes
+    ----------
+    left, right : (k, 2) float array
+        Vertices in stage px. One side may be a single point k times: the outline grows out of it or shrinks to it.
+    closed : bool
+    """
+
+    left: FloatArray
+    right: FloatArray
+    closed: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class DrawingPlan:
+    """Paths of all vertices of a drawing over one span; made by `plan_drawing`."""
+
+    pairs: tuple[AlignedPair, ...]
+    paths: LinearPaths | IntrinsicPaths
+
+    def evaluate(self, t: npt.ArrayLike) -> tuple[FloatArray, ...]:
+        """Return the in-betweens at the times `t` (T,): an array (T, k_i, 2) for every outline, in px.
+
+        At t = 0 and t = 1 they are the keyframes bit for bit. t may leave [0, 1] (easing that overshoots).
+
+        Raises
+        ------
+        GeometryError
+            If a t is not a finite number.
+        """
+        times = _as_times(t)
+        frames = self.paths.evaluate(np.atleast_1d(times))
+        first = 0
+        outlines = []
+        for pair in self.pairs:
+            outline = frames[:, first : first + len(pair.left)]
+            outline[times == 0] = pair.left
+            outline[times == 1] = pair.right
+            outlines.append(outline)
+            first += len(pair.left)
+        return tuple(outlines)
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """Paths of the vertices of one outline over one span; made by `plan`."""
+
+    drawing: DrawingPlan
+
+    def evaluate(self, t: npt.ArrayLike) -> FloatArray:
+        """Return the in-betweens at the times `t` (T,) as (T, n, 2), in px; see `DrawingPlan.evaluate`."""
+        return self.drawing.evaluate(t)[0]
+
+
+def inbetween(
+    a: npt.ArrayLike,
+    b: npt.ArrayLike,
+    t: npt.ArrayLike,
+    method: str = "intrinsic",
+    *,
+    closed: bool = True,
+    turns: int = 0,
+) -> FloatArray:
+    """Return the outline between two keyframes at the time t, or at many times at once.
+
+    Parameters
+    ----------
+    a, b : (n, 2) array_like
+        The keyframes in stage px; a[i] corresponds to b[i] (see `core.match` where it does not).
+    t : float or (T,) array_like
+        0 is `a`, 1 is `b`; may leave [0, 1] (easing that overshoots).
+    method : str
+        One of `METHODS`.
+    closed : bool
+        Whether the last vertex is joined to the first.
+    turns : int
+        Whole turns added to the shortest one (intrinsic only); positive from x towards y.
+
+    Returns
+    -------
+    (n, 2) or (T, n, 2) float array
+        Finite; at t = 0 and t = 1 the keyframes bit for bit.
+
+    Raises
+    ------
+    GeometryError
+        If a keyframe is no outline, the vertex counts differ (both are named), the method is unknown or
+        a t is not finite.
+    """
+    times = _as_times(t)
+    frames = plan(a, b, method=method, closed=closed, turns=turns).evaluate(np.atleast_1d(times))
+    return frames if times.ndim else frames[0]
+
+
+def plan(
+    a: npt.ArrayLike, b: npt.ArrayLike, *, method: str = "intrinsic", closed: bool = True, turns: int = 0
+) -> Plan:
+    """Return the paths from `a` to `b`, to be evaluated at any number of times; parameters as of `inbetween`."""
+    left = as_points(a, name="before", closed=closed)
+    right = as_points(b, name="after", closed=closed)
+    return Plan(plan_drawing([AlignedPair(left, right, closed)], method=method, turns=turns))
+
+
+def plan_drawing(pairs: Sequence[AlignedPair], *, method: str = "intrinsic", turns: int = 0) -> DrawingPlan:
+    """Return the paths of all outlines of a drawing, which move as one thing: a hole stays in its place.
+
+    Parameters
+    ----------
+    pairs : sequence of AlignedPair
+        The outlines. Unlike in `plan`, a side may be a single point.
+    method, turns
+        As of `inbetween`.
+
+    Raises
+    ------
+    GeometryError
+        As `inbetween`.
+    """
+    if method not in METHODS:
+        raise GeometryError(f'unknown method "{method}"; known are {", ".join(METHODS)}')
+    for pair in pairs:
+        if len(pair.left) != len(pair.right):
+            raise GeometryError(
+                f"before has {len(pair.left)} vertices, after has {len(pair.right)}; match them first"
+            )
+    if method == "linear" or not pairs:
+        return DrawingPlan(tuple(pairs), LinearPaths.of([(p.left, p.right) for p in pairs]))
+    outlines = [(p.left, p.right, p.closed) for p in pairs]
+    return DrawingPlan(tuple(pairs), IntrinsicPaths.of(outlines, turns=turns))
+
+
+def _as_times(t: npt.ArrayLike) -> FloatArray:
+    try:
+        times = np.asarray(t, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise GeometryError(f"t must be a number or a row of numbers, not {t!r}") from None
+    if times.ndim > 1:
+        raise GeometryError(f"t has the shape {times.shape}; expected a number or (T,)")
+    if not np.isfinite(times).all():
+        raise GeometryError("t is not a finite number")
+    return times
