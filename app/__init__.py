@@ -1,0 +1,1 @@
+"""The editor and the command line; the engine is the package `core`."""
