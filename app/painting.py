@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 import shiboken6
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPainterPath, QPen, QPolygonF, QTransform
@@ -80,7 +81,7 @@ def _thinned(points: FloatArray, *, closed: bool) -> FloatArray:
     return kept
 
 
-def _distance_to_chord(x: FloatArray, y: FloatArray, starts: FloatArray, *, closed: bool) -> FloatArray:
+def _distance_to_chord(x: FloatArray, y: FloatArray, starts: npt.NDArray[np.intp], *, closed: bool) -> FloatArray:
     """Return every vertex's squared distance from the line between its run's start and the next run's."""
     counts = np.diff(starts, append=len(x))
     ends = np.append(starts[1:], 0 if closed else len(x) - 1)
@@ -184,22 +185,27 @@ def stage_transform(stage: Stage, size: QSize) -> QTransform:
 
 
 def render_frame(
-    document: Document, frame: float, size: QSize, plans: PlanCache, *, background: Background = "stage"
+    document: Document,
+    frame: float,
+    size: QSize,
+    plans: PlanCache,
+    *,
+    background: Background = "stage",
+    format: QImage.Format = QImage.Format.Format_ARGB32_Premultiplied,
 ) -> QImage:
-    """Return the picture of a frame, premultiplied (Format_ARGB32_Premultiplied).
+    """Return the picture of a frame.
 
-    Drawings are cut off at the edges of the stage; where `size` has another shape, the margins show the background.
+    Drawings are cut off at the edges of the stage; where `size` has another shape, the margins get
+    the background. `format` is any that QPainter paints on.
 
     Raises
     ------
     StorageError
         If a picture of that size does not fit into memory.
     """
-    image = QImage(size, QImage.Format.Format_ARGB32_Premultiplied)
+    image = QImage(size, format)
     if image.isNull():
-        raise StorageError(
-            f"no memory for a picture of {size.width()} x {size.height()} px; choose a smaller size"
-        )
+        raise StorageError(f"no memory for a picture of {size.width()} x {size.height()} px; choose a smaller one")
     color = document.stage.background if background == "stage" else background
     image.fill(to_qcolor(color) if color else Qt.GlobalColor.transparent)
     transform = stage_transform(document.stage, size)
