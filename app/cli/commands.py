@@ -1,104 +1,32 @@
-"""The command line. Nothing heavier than argparse is imported before a command needs it."""
+"""The commands: their arguments, and what they do."""
 
 import argparse
-import io
+import json
 import os
 import re
 import signal
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
-from app import __version__
+import resources
+from app.cli.display import Problem, check_window_libraries, has_display, without_qt
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # numpy comes with core: not for a usage error
     from app.export.frames import ExportSettings
-    from core.model.document import Document
+    from core.model.document import Document, Keyframe
 
-DONE, PROBLEM, INTERRUPTED = 0, 1, 130
+DONE, INTERRUPTED = 0, 130
 
 DEMO_SAMPLE = "bending arm.inkb"
 DEMO_FOLDER = "inkbetween-demo"
 
-PACKAGES = "libgl1 libegl1 libxkbcommon0 libfontconfig1 libdbus-1-3 libglib2.0-0"
-"""What a bare Debian lacks for Qt to be imported."""
-WINDOW_LIBRARIES = {
-    "libxcb-cursor.so.0": "libxcb-cursor0",
-    "libxcb-icccm.so.4": "libxcb-icccm4",
-    "libxcb-keysyms.so.1": "libxcb-keysyms1",
-    "libxcb-shape.so.0": "libxcb-shape0",
-    "libxcb-xkb.so.1": "libxcb-xkb1",
-    "libxkbcommon-x11.so.0": "libxkbcommon-x11-0",
-}
-"""What Qt needs for a window on X, and the Debian packages; without one of them it would abort the program."""
 
-COMMANDS_TEXT = """\
-commands:
-  demo                  open the editor on a sample; without a display, export the sample's frames
-  export FILE OUT_DIR   write the frames as numbered PNG pictures
-  info FILE             say what is in a project
-
-"inkbetween export --help" and so on tell more. A file with the name of a command: inkbetween ./demo
-"""
-
-
-class Problem(Exception):
-    """What stops a command: one sentence for the person who typed it."""
-
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command; return 0, 1 after a problem, 130 when interrupted. Wrong usage exits with 2."""
-    if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(errors="backslashreplace")  # file names may hold what a terminal cannot show
-    try:
-        try:
-            return _run(list(sys.argv[1:] if arguments is None else arguments))
-        finally:
-            sys.stdout.flush()
-    except OSError as e:
-        # mostly a reader that has gone (inkbetween info | head); Python would complain again at its end
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return PROBLEM if isinstance(e, BrokenPipeError) else _report(e.strerror or e)
-
-
-def _run(words: list[str]) -> int:
-    command = COMMANDS.get(words[0]) if words else None
-    parsed = command(words[0]).parse_args(words[1:]) if command else _editor_parser().parse_args(words)
-    from core.errors import InkbetweenError
-
-    try:
-        code: int = parsed.run(parsed)
-    except KeyboardInterrupt:
-        return INTERRUPTED
-    except (Problem, InkbetweenError) as e:
-        return _report(e)
-    return code
-
-
-def _report(problem: object) -> int:
-    sys.stderr.write(f"inkbetween: {problem}\n")
-    return PROBLEM
-
-
-def _editor_parser() -> argparse.ArgumentParser:
+def _demo_parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="inkbetween",
-        usage="inkbetween [FILE]\n       inkbetween COMMAND ...",
-        description="A desktop in-betweening editor: draw keyframes, say which point goes where, "
-        "see every in-between at once.",
-        epilog=COMMANDS_TEXT,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.add_argument("file", metavar="FILE", nargs="?", help="a project (.inkb) to open in the editor")
-    parser.add_argument("--version", action="version", version=f"inkbetween {__version__}")
-    parser.set_defaults(run=_edit)
-    return parser
-
-
-def _demo_parser(name: str) -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog=f"inkbetween {name}",
+        prog="inkbetween demo",
         description="Open the editor on a sample. Without a display, export the sample's frames "
         f"into ./{DEMO_FOLDER} instead.",
     )
@@ -106,14 +34,14 @@ def _demo_parser(name: str) -> argparse.ArgumentParser:
     return parser
 
 
-def _export_parser(name: str) -> argparse.ArgumentParser:
+def _export_parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog=f"inkbetween {name}",
+        prog="inkbetween export",
         description="Write the frames of a project as NAME.0001.png and so on, with straight alpha. "
         "Files of the same names are replaced.",
     )
-    parser.add_argument("file", metavar="FILE", type=Path, help="a project (.inkb)")
-    parser.add_argument("folder", metavar="OUT_DIR", type=Path, help="where to; made if it is not there")
+    parser.add_argument("file", metavar="FILE", help="a project (.inkb)")
+    parser.add_argument("folder", metavar="OUT_DIR", help="where to; made if it is not there")
     parser.add_argument("--size", metavar="WxH", type=_size, help="of the pictures in px (the stage's)")
     parser.add_argument("--frames", metavar="A-B", type=_frames, help="the first and the last one (all)")
     parser.add_argument("--name", metavar="N", help="what the file names begin with (the project's name)")
@@ -128,19 +56,32 @@ def _export_parser(name: str) -> argparse.ArgumentParser:
     return parser
 
 
-def _info_parser(name: str) -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog=f"inkbetween {name}", description="Say what is in a project.")
-    parser.add_argument("file", metavar="FILE", type=Path, help="a project (.inkb)")
+def _info_parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="inkbetween info", description="Say what is in a project.")
+    parser.add_argument("file", metavar="FILE", help="a project (.inkb)")
     parser.add_argument("--json", action="store_true", help="for other programs to read")
     parser.set_defaults(run=_info)
     return parser
 
 
-COMMANDS: dict[str, Callable[[str], argparse.ArgumentParser]] = {
-    "demo": _demo_parser,
-    "export": _export_parser,
-    "info": _info_parser,
-}
+def parse(words: list[str]) -> Callable[[], int]:
+    """Return what the words ask for, ready to be run; raises SystemExit after wrong usage or help."""
+    if words and words[0] in COMMANDS:
+        parsed = COMMANDS[words[0]]().parse_args(words[1:])
+        return lambda: parsed.run(parsed)
+    parsed = _editor_parser().parse_args(words)
+    return lambda: _edit(parsed)
+
+
+def _editor_parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="inkbetween", usage="inkbetween [FILE]\n       inkbetween COMMAND ...", add_help=False
+    )
+    parser.add_argument("file", nargs="?")
+    return parser
+
+
+COMMANDS = {"demo": _demo_parser, "export": _export_parser, "info": _info_parser}
 
 
 def _size(text: str) -> tuple[int, int]:
@@ -178,7 +119,7 @@ def _background(text: str) -> str | None:
 def _edit(parsed: argparse.Namespace) -> int:
     if parsed.file is not None and not os.path.isfile(parsed.file):
         raise Problem(f"there is no file {parsed.file}; make a new project with: inkbetween")
-    if not _has_display():
+    if not has_display():
         raise Problem(
             "there is no display to open a window on (neither DISPLAY nor WAYLAND_DISPLAY is set); "
             "inkbetween export works without one"
@@ -187,10 +128,8 @@ def _edit(parsed: argparse.Namespace) -> int:
 
 
 def _demo(parsed: argparse.Namespace) -> int:
-    import resources
-
     sample = resources.folder() / "samples" / DEMO_SAMPLE
-    if _has_display():
+    if has_display():
         return _open_window(str(sample))
     from core.io.project import load
 
@@ -210,59 +149,20 @@ def _free_folder(parent: Path, name: str) -> Path:
     return free
 
 
-def _has_display() -> bool:
-    if not sys.platform.startswith("linux"):
-        return True
-    return any(os.environ.get(name) for name in ("QT_QPA_PLATFORM", "DISPLAY", "WAYLAND_DISPLAY"))
-
-
 def _open_window(path: str | None) -> int:
-    _check_window_libraries()
+    check_window_libraries()
     try:
         from app import bootstrap
     except ImportError as e:
-        raise _without_qt(e) from e
+        raise without_qt(e) from e
     return bootstrap.run(path)
 
 
-def _check_window_libraries() -> None:
-    on_x = bool(os.environ.get("DISPLAY"))
-    if not on_x or os.environ.get("WAYLAND_DISPLAY") or os.environ.get("QT_QPA_PLATFORM", "xcb") != "xcb":
-        return
-    missing = [package for library, package in WINDOW_LIBRARIES.items() if not _loads(library)]
-    if missing:
-        raise Problem(f"Qt cannot open a window without {' '.join(missing)}; {_install(' '.join(missing))}")
-
-
-def _loads(library: str) -> bool:
-    import ctypes
-
-    try:
-        ctypes.CDLL(library)
-    except OSError:
-        return False
-    return True
-
-
-def _install(packages: str) -> str:
-    return f"on Debian and Ubuntu: sudo apt install {packages}"
-
-
-def _without_qt(error: ImportError) -> Exception:
-    """Return the sentence for a Qt that cannot be imported, or the error itself if it is another one."""
-    if isinstance(error, ModuleNotFoundError):
-        if (error.name or "").partition(".")[0] not in ("PySide6", "shiboken6"):
-            return error
-        return Problem("Qt for Python is not installed; pip install PySide6-Essentials")
-    library = str(error).partition(":")[0]
-    return Problem(f"Qt cannot be loaded, {library} is missing; {_install(PACKAGES)}")
-
-
-def _qt_export():
+def _qt_export() -> ModuleType:
     try:
         from app.export import frames
     except ImportError as e:
-        raise _without_qt(e) from e
+        raise without_qt(e) from e
     return frames
 
 
@@ -272,8 +172,10 @@ def _export(parsed: argparse.Namespace) -> int:
     document = load(parsed.file)
     first, last = parsed.frames or (1, document.length)
     size = parsed.size or (document.stage.width, document.stage.height)
-    name = parsed.name if parsed.name is not None else parsed.file.stem
-    settings = _qt_export().ExportSettings(parsed.folder, name, first, last, size, background=parsed.background)
+    name = parsed.name if parsed.name is not None else Path(parsed.file).stem
+    settings = _qt_export().ExportSettings(
+        Path(parsed.folder), name, first, last, size, background=parsed.background
+    )
     return _write_frames(document, settings)
 
 
@@ -308,43 +210,37 @@ def _info(parsed: argparse.Namespace) -> int:
 
     facts = _facts(load(parsed.file))
     if parsed.json:
-        import json
-
-        sys.stdout.write(json.dumps({"file": str(parsed.file), **facts}, indent=2) + "\n")
+        sys.stdout.write(json.dumps({"file": parsed.file, **facts}, indent=2) + "\n")
     else:
         sys.stdout.write(f"{parsed.file}\n{_fact_lines(facts)}")
     return DONE
 
 
-def _facts(document: "Document") -> dict:
+def _facts(document: "Document") -> dict[str, Any]:
+    stage = document.stage
     return {
-        "stage": {
-            "width": document.stage.width,
-            "height": document.stage.height,
-            "background": document.stage.background,
-        },
+        "stage": {"width": stage.width, "height": stage.height, "background": stage.background},
         "rate": str(document.rate),
         "length": document.length,
         "layers": [
-            {
-                "name": layer.name,
-                "visible": layer.visible,
-                "keyframes": [
-                    {
-                        "frame": k.frame,
-                        "outlines": len(k.drawing.outlines),
-                        "vertices": sum(len(o.points) for o in k.drawing.outlines),
-                        "method": k.span.method,
-                    }
-                    for k in layer.keyframes
-                ],
-            }
-            for layer in document.layers
+            {"name": x.name, "visible": x.visible, "keyframes": [_keyframe_facts(k) for k in x.keyframes]}
+            for x in document.layers
         ],
     }
 
 
-def _fact_lines(facts: dict) -> str:
+def _keyframe_facts(keyframe: "Keyframe") -> dict[str, Any]:
+    outlines = keyframe.drawing.outlines
+    vertices = sum(len(o.points) for o in outlines)
+    return {
+        "frame": keyframe.frame,
+        "outlines": len(outlines),
+        "vertices": vertices,
+        "method": keyframe.span.method,
+    }
+
+
+def _fact_lines(facts: dict[str, Any]) -> str:
     stage, layers = facts["stage"], facts["layers"]
     lines = [
         f"stage: {stage['width']} x {stage['height']} px, {stage['background'] or 'transparent'}",
