@@ -246,7 +246,7 @@ class Session(QObject):
         diff = DocumentDiff(self._document, document)
         self._document = document
         if all(layer.id != self._layer_id for layer in document.layers):
-            self._layer_id = document.layers[-1].id if document.layers else 1
+            self._layer_id = document.layers[-1].id
         valid = self._valid(self._selection)
         selection_changed = valid != self._selection
         self._selection = valid
@@ -322,7 +322,7 @@ class Session(QObject):
             self._gesture.cancel()
         self.path, self.title = path, title
         self._selection = Selection()
-        self._layer_id = document.layers[-1].id if document.layers else 1
+        self._layer_id = document.layers[-1].id
         diff = DocumentDiff(self._document, document)
         self._document = document
         self._frame = 1
