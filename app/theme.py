@@ -163,7 +163,8 @@ QPushButton:hover {{ border-color: {t.muted}; }}
 QPushButton:pressed {{ background: {t.line}; }}
 QPushButton:default {{ background: {t.accent}; color: {t.accent_text}; border-color: {t.accent}; }}
 QPushButton:disabled {{ color: {t.muted}; background: {t.panel}; border-color: {t.line}; }}
-QPushButton[flat="true"] {{ background: transparent; border-color: transparent; color: {t.accent}; padding: 4px 6px; }}
+QPushButton[flat="true"] {{ background: transparent; border-color: transparent; color: {t.accent};
+    padding: 4px 6px; }}
 QPushButton[flat="true"]:disabled {{ color: {t.muted}; }}
 QLineEdit, QSpinBox, QDoubleSpinBox, QComboBox {{ background: {t.raised}; color: {t.text};
     border: 1px solid {t.line}; border-radius: 7px; padding: 3px 8px; min-height: 20px;

@@ -166,7 +166,8 @@ class LinesItem(CanvasItem):
         for link in content.plan.links if content.plan else ():
             left, right = link.aligned.left, link.aligned.right
             rows = spread_rows(left, right, link.aligned.closed)
-            for p, q in zip(camera.to_view(left[rows], start.offset), camera.to_view(right[rows], end.offset)):
+            ends = camera.to_view(left[rows], start.offset), camera.to_view(right[rows], end.offset)
+            for p, q in zip(*ends, strict=True):
                 path.moveTo(p[0], p[1])
                 path.lineTo(q[0], q[1])
         painter.drawPath(path)
@@ -290,10 +291,8 @@ def spread_rows(left: FloatArray, right: FloatArray, closed: bool) -> FloatArray
     """Return the indices of at most MOST_LINES rows, evenly spread along both outlines."""
     if len(left) <= MOST_LINES:
         return np.arange(len(left))
-    along = sum(
-        s[: len(left)] / max(s[-1], 1e-12)
-        for s in (arc_lengths(left, closed=closed), arc_lengths(right, closed=closed))
-    )
+    lengths = (arc_lengths(side, closed=closed) for side in (left, right))
+    along = sum(s[: len(left)] / max(float(s[-1]), 1e-12) for s in lengths)
     return np.unique(np.searchsorted(along, np.linspace(0, float(along[-1]), MOST_LINES)).clip(0, len(left) - 1))
 
 

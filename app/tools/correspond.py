@@ -213,6 +213,13 @@ def delete_selected_anchor(session) -> bool:
     if ref is None:
         return False
     session.apply(
-        "Delete Anchor", delete_anchor, session.layer.id, ref.frame, ref.before, ref.after, ref.index, selection=Selection()
+        "Delete Anchor",
+        delete_anchor,
+        session.layer.id,
+        ref.frame,
+        ref.before,
+        ref.after,
+        ref.index,
+        selection=Selection(),
     )
     return True

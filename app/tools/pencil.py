@@ -54,7 +54,9 @@ class PencilTool(Tool):
         stage = np.array([camera.to_stage(p, offset) for p in trail])
         points = tidy(stage, self.tolerance, 1 / camera.scale, closed=closed)
         if len(points) < (3 if closed else 2):
-            self.canvas.session.problem.emit("That line encloses nothing: draw round a shape, or hold Alt for a line.")
+            self.canvas.session.problem.emit(
+                "That line encloses nothing: draw round a shape, or hold Alt for a line."
+            )
             return
         session = self.canvas.session
         session.apply("Draw Outline", add_outline, session.layer.id, session.frame, points, closed=closed)
