@@ -1,3 +1,3 @@
-"""The editor and the command line; the engine is the package `core`."""
+"""The editor and the command line."""
 
 __version__ = "0.1.0"

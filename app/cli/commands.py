@@ -20,7 +20,6 @@ if TYPE_CHECKING:  # numpy comes with core: not for a usage error
 
 DONE, INTERRUPTED = 0, 130
 
-DEMO_SAMPLE = "bending arm.inkb"
 DEMO_FOLDER = "inkbetween-demo"
 
 
@@ -128,7 +127,7 @@ def _edit(parsed: argparse.Namespace) -> int:
 
 
 def _demo(parsed: argparse.Namespace) -> int:
-    sample = resources.folder() / "samples" / DEMO_SAMPLE
+    sample = resources.folder() / "samples" / f"{resources.DEMO}.inkb"
     if has_display():
         return _open_window(str(sample))
     from core.io.project import load
