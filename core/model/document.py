@@ -193,6 +193,8 @@ class Document:
             raise DocumentError(f"the frame rate is {self.rate}; it must be above 0 and at most {FASTEST}")
         if not 1 <= self.length <= LONGEST:
             raise DocumentError(f"the film has {self.length} frames; it must have 1 to {LONGEST}")
+        if not self.layers:
+            raise DocumentError("the document has no layer; it needs at least one")
         ids = [layer.id for layer in self.layers]
         if len(set(ids)) < len(ids):
             raise DocumentError("two layers have the same id")

@@ -1,0 +1,1 @@
+"""The canvas: one item a thing, drawn from one description of what is to be seen."""

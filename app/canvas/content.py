@@ -1,0 +1,175 @@
+"""What is to be seen on the canvas now: worked out once a change, then only painted and searched."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.canvas.papers import AFTER, BEFORE, FILM, Paper, papers_for
+from app.preview.spans import SpanPreview
+from app.session import OutlineRef, Session
+from app.view import ViewOptions
+from core.geometry.outline import FloatArray
+from core.model.document import Document, Keyframe, ratio_in_span
+from core.model.drawing import Outline
+from core.model.inbetweens import Picture, PlanCache, SpanPlan, keyframe_picture, picture_at
+
+FILM_TIMES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
+"""As in the figures of the papers on shape blending."""
+
+OutlineShapes = tuple[tuple[FloatArray, bool], ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class OnionSkin:
+    """One neighbouring frame: its outlines, its side of the playhead and its opacity."""
+
+    outlines: OutlineShapes
+    side: str
+    strength: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Content:
+    """Everything the canvas paints and the tools search.
+
+    Attributes
+    ----------
+    before, after : Keyframe or None
+        Of the span under the playhead in the active layer.
+    plan : SpanPlan or None
+    t : float or None
+        Eased t at the playhead; None outside every span.
+    picture : Picture or None
+        What the active layer shows at the playhead.
+    others : tuple of (Picture, bool)
+        The other visible layers, and whether each lies in front of the active one.
+    films : dict from Paper to tuple of OutlineShapes
+    """
+
+    document: Document
+    options: ViewOptions
+    papers: tuple[Paper, ...]
+    frame: int
+    before: Keyframe | None
+    after: Keyframe | None
+    plan: SpanPlan | None
+    t: float | None
+    picture: Picture | None
+    others: tuple[tuple[Picture, bool], ...]
+    onion: tuple[OnionSkin, ...]
+    films: dict[Paper, tuple[OutlineShapes, ...]]
+
+    def editable(self, side: str) -> Keyframe | None:
+        """Return the keyframe of a side."""
+        return self.before if side == BEFORE else self.after
+
+    def outlines(self) -> Iterator[tuple[Paper, str, OutlineRef, Outline]]:
+        """Yield every outline that can be edited, on every paper that shows it; the current keyframe's first."""
+        sides = (BEFORE, AFTER)
+        if self.after is not None and self.frame == self.after.frame:
+            sides = (AFTER, BEFORE)
+        for paper in self.papers:
+            for side in sides:
+                keyframe = self.editable(side)
+                if keyframe is not None and side in paper.shows:
+                    for outline in keyframe.drawing.outlines:
+                        yield paper, side, (keyframe.frame, outline.id), outline
+
+
+def build_content(session: Session, preview: SpanPreview, plans: PlanCache, options: ViewOptions) -> Content:
+    """Work out what is to be seen."""
+    document, layer, frame = session.document, session.layer, session.frame
+    before, after = session.span_keyframes()
+    plan = t = picture = None
+    if before is not None and after is not None:
+        plan = preview.plan(before, after)
+        t = _t_at(before, after, frame)
+    key = layer.keyframe_at(frame)
+    if key is not None:
+        picture = keyframe_picture(key.drawing)
+    elif plan is not None and t is not None:
+        picture = plan.picture(t)
+    elif before is not None:
+        picture = keyframe_picture(before.drawing)
+    papers = papers_for("overlaid" if options.final else options.arrangement, document.stage)
+    return Content(
+        document,
+        options,
+        papers,
+        frame,
+        before,
+        after,
+        plan,
+        t,
+        picture if layer.visible or not options.final else None,
+        _others(document, layer.id, frame, plans),
+        _onion(session, preview, options) if options.onion and not options.final else (),
+        _films(papers, before, after, preview),
+    )
+
+
+def _t_at(before: Keyframe, after: Keyframe, frame: float) -> float:
+    return float(before.span.easing.t_at(ratio_in_span(before, after, frame)))
+
+
+def _others(document: Document, active: int, frame: int, plans: PlanCache) -> tuple[tuple[Picture, bool], ...]:
+    found = []
+    in_front = False
+    for layer in document.layers:
+        if layer.id == active:
+            in_front = True
+        elif layer.visible:
+            picture = picture_at(layer, frame, plans)
+            if picture is not None:
+                found.append((picture, in_front))
+    return tuple(found)
+
+
+def _onion(session: Session, preview: SpanPreview, options: ViewOptions) -> tuple[OnionSkin, ...]:
+    """Return the skins, the farthest first, so that near ones lie on top."""
+    skins = []
+    for side, count, step in (("before", options.onion_before, -1), ("after", options.onion_after, 1)):
+        for distance in range(count, 0, -1):
+            frame = session.frame + step * distance
+            if not 1 <= frame <= session.document.length:
+                continue
+            picture = _layer_picture(session, preview, frame)
+            if picture is not None:
+                strength = options.onion_strength * (1 - (distance - 1) / (count + 1))
+                skins.append(OnionSkin(picture.outlines, side, strength))
+    return tuple(skins)
+
+
+def _layer_picture(session: Session, preview: SpanPreview, frame: int) -> Picture | None:
+    """Return the active layer at another frame; nothing behind its last keyframe, where nothing moves."""
+    keyframe = session.layer.keyframe_at(frame)
+    if keyframe is not None:
+        return keyframe_picture(keyframe.drawing)
+    before, after = session.layer.around(frame)
+    if before is None or after is None:
+        return None
+    return preview.plan(before, after).picture(_t_at(before, after, frame))
+
+
+def _films(
+    papers: tuple[Paper, ...], before: Keyframe | None, after: Keyframe | None, preview: SpanPreview
+) -> dict[Paper, tuple[OutlineShapes, ...]]:
+    if before is None or after is None:
+        return {}
+    films = {}
+    for paper in papers:
+        if FILM in paper.shows:
+            plan = preview.plan(before, after, paper.method)
+            frames = plan.frames(FILM_TIMES)
+            closed = [link.aligned.closed for link in plan.links]
+            films[paper] = tuple(
+                tuple((f[i], c) for f, c in zip(frames, closed, strict=True)) for i in range(len(FILM_TIMES))
+            )
+    return films
+
+
+def box_around(points: FloatArray) -> tuple[float, float, float, float]:
+    """Return left, top, right and bottom of points."""
+    low, high = np.min(points, axis=0), np.max(points, axis=0)
+    return float(low[0]), float(low[1]), float(high[0]), float(high[1])

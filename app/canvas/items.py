@@ -1,0 +1,310 @@
+"""The items of the canvas, from the paper up; each paints one kind of thing in view px."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPainterPath, QPen
+from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
+
+from app.canvas.content import FILM_TIMES, Content
+from app.canvas.hits import anchor_places
+from app.canvas.papers import AFTER, BEFORE, INBETWEEN, Paper
+from app.painting import paint_outlines, paint_picture, to_qcolor
+from core.geometry.outline import FloatArray, arc_lengths, perimeter
+
+if TYPE_CHECKING:
+    from app.canvas.canvas import Canvas
+
+KEY_WIDTH = 1.8
+INBETWEEN_WIDTH = 2.2
+SKIN_WIDTH = 1.0
+MOST_LINES = 40
+CLOSEST_VERTICES = 7.0
+"""View px: vertices nearer to each other on average are not marked one by one."""
+
+
+class CanvasItem(pg.GraphicsObject):
+    """Fills the view; paints from the canvas's content."""
+
+    def __init__(self, canvas: "Canvas", z: int) -> None:
+        super().__init__()
+        self.canvas = canvas
+        self.setZValue(z)
+        self.setAcceptedMouseButtons(Qt.MouseButton.NoButton)
+
+    def boundingRect(self) -> QRectF:
+        return QRectF(self.canvas.viewport().rect())
+
+    def paint(self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None) -> None:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        self.draw(painter, self.canvas.content)
+
+    def draw(self, painter: QPainter, content: Content) -> None:
+        """Paint this kind of thing."""
+
+
+class PaperItem(CanvasItem):
+    """The stage: paper, border, and what is written on it."""
+
+    def draw(self, painter: QPainter, content: Content) -> None:
+        stage, theme = content.document.stage, self.canvas.theme
+        fill = to_qcolor(stage.background) if stage.background else theme.color("stage")
+        for paper in content.papers:
+            rect = self.canvas.camera.transform().mapRect(paper.rect(stage))
+            painter.setPen(QPen(theme.color("line"), 1))
+            painter.setBrush(fill)
+            painter.drawRoundedRect(rect, 4, 4)
+
+
+class OthersItem(CanvasItem):
+    """The visible layers behind, or in front of, the one that is drawn on."""
+
+    def __init__(self, canvas: "Canvas", z: int, *, in_front: bool) -> None:
+        super().__init__(canvas, z)
+        self.in_front = in_front
+
+    def draw(self, painter: QPainter, content: Content) -> None:
+        painter.setOpacity(1.0 if content.options.final else 0.45)
+        for picture, in_front in content.others:
+            if in_front == self.in_front:
+                for paper in content.papers:
+                    paint_picture(painter, picture, self.canvas.camera.transform(paper.offset))
+
+
+class OnionItem(CanvasItem):
+    """Neighbouring frames: before red, after green, fading with the distance."""
+
+    def draw(self, painter: QPainter, content: Content) -> None:
+        for paper in content.papers:
+            if INBETWEEN not in paper.shows:
+                continue
+            transform = self.canvas.camera.transform(paper.offset)
+            for skin in content.onion:
+                color = self.canvas.theme.color(f"onion_{skin.side}", skin.strength)
+                paint_outlines(
+                    painter, skin.outlines, fill=None, stroke=color, width=SKIN_WIDTH, transform=transform
+                )
+
+
+class FilmItem(CanvasItem):
+    """A whole span at t = 0, 0.2 ... 1, from the colour of the keyframe before to that of the one after."""
+
+    def draw(self, painter: QPainter, content: Content) -> None:
+        theme = self.canvas.theme
+        for paper, frames in content.films.items():
+            transform = self.canvas.camera.transform(paper.offset)
+            for t, outlines in zip(FILM_TIMES, frames, strict=True):
+                color = blend(theme.color("before"), theme.color("after"), t)
+                fill = QColor(color)
+                fill.setAlphaF(0.10)
+                paint_outlines(painter, outlines, fill=fill, stroke=color, width=1.3, transform=transform)
+
+
+class ShapesItem(CanvasItem):
+    """The keyframes around the playhead and the in-between."""
+
+    def draw(self, painter: QPainter, content: Content) -> None:
+        if content.options.final:
+            if content.picture is not None:
+                paint_picture(painter, content.picture, self.canvas.camera.transform())
+            return
+        for paper in content.papers:
+            self._draw_inbetween(painter, content, paper)
+            self._draw_keyframes(painter, content, paper)
+
+    def _draw_keyframes(self, painter: QPainter, content: Content, paper: Paper) -> None:
+        transform = self.canvas.camera.transform(paper.offset)
+        for side in (BEFORE, AFTER):
+            keyframe = content.editable(side)
+            if keyframe is None or side not in paper.shows:
+                continue
+            alone = content.before is None or content.after is None
+            held = alone and keyframe.frame != content.frame  # shown, though the playhead is elsewhere
+            color = self.canvas.theme.color(side, 0.55 if held else 1.0)
+            outlines = [(o.points, o.closed) for o in keyframe.drawing.outlines]
+            paint_outlines(painter, outlines, fill=None, stroke=color, width=KEY_WIDTH, transform=transform)
+
+    def _draw_inbetween(self, painter: QPainter, content: Content, paper: Paper) -> None:
+        if content.picture is None or INBETWEEN not in paper.shows:
+            return
+        theme = self.canvas.theme
+        on_key = content.frame in {k.frame for k in (content.before, content.after) if k is not None}
+        beside = content.before is None or content.after is None
+        stroke = None if on_key or beside else theme.color("inbetween")
+        fill = theme.color("accent", 0.16)
+        transform = self.canvas.camera.transform(paper.offset)
+        paint_outlines(
+            painter,
+            content.picture.outlines,
+            fill=fill,
+            stroke=stroke,
+            width=INBETWEEN_WIDTH,
+            transform=transform,
+        )
+
+
+class LinesItem(CanvasItem):
+    """The correspondence: fine dotted lines from point to point, the anchors' solid."""
+
+    def draw(self, painter: QPainter, content: Content) -> None:
+        if content.options.final or content.plan is None:
+            return
+        for start_paper, end_paper in line_papers(content):
+            if content.options.lines == "all":
+                self._draw_all(painter, content, start_paper, end_paper)
+            if content.options.lines != "none":
+                self._draw_anchors(painter, content, start_paper, end_paper)
+
+    def _draw_all(self, painter: QPainter, content: Content, start: Paper, end: Paper) -> None:
+        camera = self.canvas.camera
+        pen = QPen(self.canvas.theme.color("muted", 0.55), 1, Qt.PenStyle.CustomDashLine)
+        pen.setDashPattern([1, 3])
+        painter.setPen(pen)
+        path = QPainterPath()
+        for link in content.plan.links if content.plan else ():
+            left, right = link.aligned.left, link.aligned.right
+            rows = spread_rows(left, right, link.aligned.closed)
+            for p, q in zip(camera.to_view(left[rows], start.offset), camera.to_view(right[rows], end.offset)):
+                path.moveTo(p[0], p[1])
+                path.lineTo(q[0], q[1])
+        painter.drawPath(path)
+
+    def _draw_anchors(self, painter: QPainter, content: Content, start: Paper, end: Paper) -> None:
+        camera, theme = self.canvas.camera, self.canvas.theme
+        chosen = self.canvas.session.selection.anchor
+        for ref, p, q in anchor_places(content):
+            painter.setPen(QPen(theme.color("accent"), 2.4 if ref == chosen else 1.5))
+            a, b = camera.to_view(p, start.offset), camera.to_view(q, end.offset)
+            painter.drawLine(QPointF(*a), QPointF(*b))
+
+
+class HandlesItem(CanvasItem):
+    """Vertices, selected and hovered ones, and the ends of anchors."""
+
+    def draw(self, painter: QPainter, content: Content) -> None:
+        if content.options.final:
+            return
+        tool = self.canvas.tool
+        if tool is not None and tool.shows_vertices:
+            self._draw_vertices(painter, content)
+        if content.options.lines != "none" or (tool is not None and tool.shows_anchors):
+            self._draw_anchors(painter, content)
+        self._draw_hover(painter)
+
+    def _draw_vertices(self, painter: QPainter, content: Content) -> None:
+        camera, theme = self.canvas.camera, self.canvas.theme
+        selected = self.canvas.session.selection.vertices
+        for paper, side, ref, outline in content.outlines():
+            points = camera.to_view(outline.points, paper.offset)
+            spacing = camera.scale * perimeter(outline.points, closed=outline.closed) / len(points)
+            if spacing >= CLOSEST_VERTICES:
+                draw_dots(painter, points, theme.color(side), theme.color("stage"))
+            chosen = selected.get(ref)
+            if chosen:
+                draw_dots(painter, points[list(chosen)], theme.color("accent_text"), theme.color("accent"), 9.0)
+
+    def _draw_anchors(self, painter: QPainter, content: Content) -> None:
+        camera, theme = self.canvas.camera, self.canvas.theme
+        chosen = self.canvas.session.selection.anchor
+        for start_paper, end_paper in line_papers(content):
+            for ref, p, q in anchor_places(content):
+                for side, place, paper in ((BEFORE, p, start_paper), (AFTER, q, end_paper)):
+                    painter.setPen(QPen(theme.color(side), 2.2))
+                    painter.setBrush(theme.color("accent" if ref == chosen else "stage"))
+                    painter.drawEllipse(QPointF(*camera.to_view(place, paper.offset)), 5.5, 5.5)
+
+    def _draw_hover(self, painter: QPainter) -> None:
+        spot = self.canvas.hover
+        if spot is None:
+            return
+        painter.setPen(QPen(self.canvas.theme.color("accent"), 2))
+        painter.setBrush(self.canvas.theme.color("accent", 0.25))
+        painter.drawEllipse(spot, 7.5, 7.5)
+
+
+class LabelsItem(CanvasItem):
+    """Which frame has which colour, in the corner of the paper; and what to do on an empty one."""
+
+    def draw(self, painter: QPainter, content: Content) -> None:
+        if content.options.final:
+            return
+        stage, camera = content.document.stage, self.canvas.camera
+        for paper in content.papers:
+            rect = camera.transform().mapRect(paper.rect(stage))
+            self._draw_words(painter, self._words(content, paper), rect)
+        if content.before is None and content.after is None and not self._busy():
+            rect = camera.transform().mapRect(content.papers[0].rect(stage))
+            painter.setPen(self.canvas.theme.color("muted"))
+            text = "Press P and click the corners of your first drawing,\nor press B and draw it freehand."
+            painter.drawText(rect, int(Qt.AlignmentFlag.AlignCenter), text)
+
+    def _busy(self) -> bool:
+        return self.canvas.tool is not None and self.canvas.tool.busy
+
+    def _words(self, content: Content, paper: Paper) -> list[tuple[str, str]]:
+        words = [(paper.title, "text")] if paper.title else []
+        if content.before is not None and BEFORE in paper.shows:
+            words.append((f"before  frame {content.before.frame}", "before"))
+        if content.after is not None and AFTER in paper.shows:
+            words.append((f"after  frame {content.after.frame}", "after"))
+        if INBETWEEN in paper.shows and content.t is not None and self._between(content):
+            words.append((f"in-between  frame {content.frame}", "inbetween"))
+        return words
+
+    def _between(self, content: Content) -> bool:
+        return content.frame not in {k.frame for k in (content.before, content.after) if k is not None}
+
+    def _draw_words(self, painter: QPainter, words: list[tuple[str, str]], rect: QRectF) -> None:
+        font = QFont(painter.font())
+        font.setPixelSize(12)
+        painter.setFont(font)
+        measure = QFontMetricsF(font)
+        width = sum(measure.horizontalAdvance(text) + 24 for text, _ in words)
+        if width > rect.width():
+            return
+        x = rect.left() + 14
+        for text, token in words:
+            painter.setPen(self.canvas.theme.color(token))
+            painter.drawText(QPointF(x, rect.top() + 24), text)
+            x += measure.horizontalAdvance(text) + 24
+
+
+class ToolItem(CanvasItem):
+    """Whatever the active tool paints on top."""
+
+    def draw(self, painter: QPainter, content: Content) -> None:
+        if self.canvas.tool is not None and not content.options.final:
+            self.canvas.tool.paint(painter)
+
+
+def line_papers(content: Content) -> list[tuple[Paper, Paper]]:
+    """Return from which paper to which the correspondence is drawn."""
+    starts = [p for p in content.papers if BEFORE in p.shows]
+    ends = [p for p in content.papers if AFTER in p.shows]
+    return [(p, p) for p in starts if p in ends] or list(zip(starts, ends, strict=False))
+
+
+def spread_rows(left: FloatArray, right: FloatArray, closed: bool) -> FloatArray:
+    """Return the indices of at most MOST_LINES rows, evenly spread along both outlines."""
+    if len(left) <= MOST_LINES:
+        return np.arange(len(left))
+    along = sum(
+        s[: len(left)] / max(s[-1], 1e-12)
+        for s in (arc_lengths(left, closed=closed), arc_lengths(right, closed=closed))
+    )
+    return np.unique(np.searchsorted(along, np.linspace(0, float(along[-1]), MOST_LINES)).clip(0, len(left) - 1))
+
+
+def draw_dots(painter: QPainter, points: FloatArray, ring: QColor, fill: QColor, size: float = 7.0) -> None:
+    """Draw round marks, all in two calls: a dot in the ring's colour, a smaller one on top."""
+    polygon = pg.functions.arrayToQPolygonF(points[:, 0], points[:, 1])
+    for width, color in ((size, ring), (size - 3.2, fill)):
+        painter.setPen(QPen(color, width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+        painter.drawPoints(polygon)
+
+
+def blend(a: QColor, b: QColor, t: float) -> QColor:
+    """Mix two colours of the theme, for helpers on the canvas."""
+    return QColor.fromRgbF(*(float(x + (y - x) * t) for x, y in zip(a.getRgbF(), b.getRgbF(), strict=True)))

@@ -1,0 +1,334 @@
+"""The open document, what is selected in it and where the playhead stands; the only place that changes them."""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QUndoStack
+
+from app.commands import EditDocument, Step
+from core.errors import InkbetweenError
+from core.io.project import load, save
+from core.model.document import Document, Keyframe, Layer
+
+UNDO_LIMIT = 200
+
+OutlineRef = tuple[int, int]
+"""The frame of a keyframe in the active layer, and the id of an outline in its drawing."""
+
+
+@dataclass(frozen=True, slots=True)
+class AnchorRef:
+    """One anchor: the frame its span begins at, the two outlines' ids, its index in their pair."""
+
+    frame: int
+    before: int
+    after: int
+    index: int
+
+
+@dataclass(frozen=True, slots=True)
+class Selection:
+    """What the next edit is about.
+
+    Attributes
+    ----------
+    vertices : mapping from OutlineRef to sorted tuple of int
+        Selected vertices of each outline that has any.
+    anchor : AnchorRef or None
+    """
+
+    vertices: Mapping[OutlineRef, tuple[int, ...]] = field(default_factory=dict)
+    anchor: AnchorRef | None = None
+
+    @property
+    def count(self) -> int:
+        """Number of selected vertices."""
+        return sum(map(len, self.vertices.values()))
+
+    def has(self, ref: OutlineRef, index: int) -> bool:
+        return index in self.vertices.get(ref, ())
+
+    def with_vertices(self, ref: OutlineRef, indices: Iterable[int]) -> "Selection":
+        """Return a selection in which exactly these vertices of an outline are selected."""
+        kept = dict(self.vertices)
+        chosen = tuple(sorted(set(indices)))
+        if chosen:
+            kept[ref] = chosen
+        else:
+            kept.pop(ref, None)
+        return Selection(kept)
+
+
+@dataclass(frozen=True, slots=True)
+class DocumentDiff:
+    """What changed, told by identity: parts that an edit left alone are the same objects."""
+
+    before: Document
+    after: Document
+
+    @property
+    def layers(self) -> frozenset[int]:
+        """Ids of layers that were added, taken away or changed."""
+        old = {x.id: x for x in self.before.layers}
+        new = {x.id: x for x in self.after.layers}
+        return frozenset(i for i in old.keys() | new.keys() if old.get(i) is not new.get(i))
+
+    @property
+    def frame_range(self) -> bool:
+        """Whether the length or the rate changed."""
+        return (self.before.length, self.before.rate) != (self.after.length, self.after.rate)
+
+    @property
+    def stage(self) -> bool:
+        return self.before.stage != self.after.stage
+
+
+class Gesture:
+    """One drag: shown at every step, one undo command at the end, nothing at all when cancelled."""
+
+    def __init__(self, session: "Session", label: str) -> None:
+        self._session = session
+        self.label = label
+        self.before = Step(session.document, session.selection)
+        self.open = True
+
+    @property
+    def document(self) -> Document:
+        """The document as it was when the gesture began."""
+        return self.before.document
+
+    def update(self, edit: Callable[..., Document], *args: Any, **options: Any) -> bool:
+        """Show the first document with `edit` applied; an edit that is refused leaves the last picture."""
+        try:
+            document = edit(self.document, *args, **options)
+        except InkbetweenError as e:
+            self._session.problem.emit(str(e))
+            return False
+        self._session.show_document(document)
+        return True
+
+    def reset(self) -> None:
+        """Show the document as it was when the gesture began, and stay open."""
+        self._session.show_document(self.document)
+
+    def commit(self) -> None:
+        """End with one undo step, or with none if nothing changed."""
+        if self.open:
+            self.open = False
+            self._session.end_gesture(self, keep=True)
+
+    def cancel(self) -> None:
+        """End as if it had never begun."""
+        if self.open:
+            self.open = False
+            self._session.end_gesture(self, keep=False)
+
+
+class Session(QObject):
+    """See the module. Every change of the document emits `documentChanged` once."""
+
+    documentChanged = Signal(object)  # DocumentDiff
+    selectionChanged = Signal()
+    frameChanged = Signal(int)
+    layerChanged = Signal()
+    fileChanged = Signal()
+    gestureChanged = Signal(bool)
+    problem = Signal(str)
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.undo_stack = QUndoStack(self)
+        self.undo_stack.setUndoLimit(UNDO_LIMIT)
+        self.undo_stack.cleanChanged.connect(lambda _: self.fileChanged.emit())
+        self._document = Document()
+        self._selection = Selection()
+        self._frame = 1
+        self._layer_id = 1
+        self._gesture: Gesture | None = None
+        self.path: Path | None = None
+        self.title: str | None = None
+
+    # what is open
+
+    @property
+    def document(self) -> Document:
+        return self._document
+
+    @property
+    def selection(self) -> Selection:
+        return self._selection
+
+    @property
+    def frame(self) -> int:
+        return self._frame
+
+    @property
+    def layer(self) -> Layer:
+        """The layer that tools draw on."""
+        return self._document.layer(self._layer_id)
+
+    @property
+    def in_gesture(self) -> bool:
+        return self._gesture is not None
+
+    @property
+    def is_modified(self) -> bool:
+        return not self.undo_stack.isClean()
+
+    @property
+    def name(self) -> str:
+        """The file's name without its suffix, for titles and exports."""
+        return self.path.stem if self.path else (self.title or "untitled")
+
+    def span_keyframes(self) -> tuple[Keyframe | None, Keyframe | None]:
+        """Return the keyframes around the playhead in the active layer."""
+        return self.layer.around(self._frame)
+
+    # changing it
+
+    def apply(self, label: str, edit: Callable[..., Document], *args: Any, **options: Any) -> bool:
+        """Apply an edit as one undo step; where the engine refuses, say why and leave everything as it is.
+
+        Options `merge_key` (see EditDocument) and `selection` (what to select afterwards) are taken out; the
+        rest goes to the edit.
+        """
+        merge_key = options.pop("merge_key", None)
+        selection = options.pop("selection", self._selection)
+        if self._gesture is not None:
+            self._gesture.commit()
+        try:
+            document = edit(self._document, *args, **options)
+        except InkbetweenError as e:
+            self.problem.emit(str(e))
+            return False
+        if document is not self._document:
+            before = Step(self._document, self._selection)
+            self._push(label, before, Step(document, selection), merge_key)
+        elif selection is not self._selection:
+            self.select(selection)
+        return True
+
+    def begin(self, label: str) -> Gesture:
+        """Start a gesture; an open one is committed first."""
+        if self._gesture is not None:
+            self._gesture.commit()
+        self._gesture = Gesture(self, label)
+        self.gestureChanged.emit(True)
+        return self._gesture
+
+    def end_gesture(self, gesture: Gesture, *, keep: bool) -> None:
+        """Called by the gesture itself."""
+        self._gesture = None
+        shown = Step(self._document, self._selection)
+        if not keep:
+            self._show(gesture.before)
+        elif shown.document != gesture.before.document:
+            self._push(gesture.label, gesture.before, shown)
+        else:
+            self.show_document(gesture.before.document)
+        self.gestureChanged.emit(False)
+
+    def _push(self, label: str, before: Step, after: Step, merge_key: object = None) -> None:
+        self.undo_stack.push(EditDocument(label, before, after, self._show, merge_key))
+
+    def _show(self, step: Step) -> None:
+        self.show_document(step.document)
+        if isinstance(step.selection, Selection):
+            self.select(step.selection)
+
+    def show_document(self, document: Document) -> None:
+        """Make `document` the visible one, without an undo step; for gestures and undo commands only."""
+        if document is self._document:
+            return
+        diff = DocumentDiff(self._document, document)
+        self._document = document
+        if all(layer.id != self._layer_id for layer in document.layers):
+            self._layer_id = document.layers[-1].id
+        valid = self._valid(self._selection)
+        selection_changed = valid != self._selection
+        self._selection = valid
+        if self._frame > document.length:
+            self._frame = document.length
+            self.frameChanged.emit(self._frame)
+        self.documentChanged.emit(diff)
+        if selection_changed:
+            self.selectionChanged.emit()
+
+    # session state
+
+    def select(self, selection: Selection) -> None:
+        """Select what of `selection` exists."""
+        valid = self._valid(selection)
+        if valid != self._selection:
+            self._selection = valid
+            self.selectionChanged.emit()
+
+    def go_to(self, frame: float) -> None:
+        """Put the playhead on a frame of the film."""
+        clipped = min(max(round(frame), 1), self._document.length)
+        if clipped != self._frame:
+            self._frame = clipped
+            self.frameChanged.emit(clipped)
+
+    def set_layer(self, layer_id: int) -> None:
+        """Draw on another layer."""
+        if layer_id != self._layer_id:
+            self._document.layer(layer_id)
+            self._layer_id = layer_id
+            self.select(Selection())
+            self.layerChanged.emit()
+
+    def _valid(self, selection: Selection) -> Selection:
+        counts = {(k.frame, o.id): len(o.points) for k in self.layer.keyframes for o in k.drawing.outlines}
+        kept = {
+            ref: indices
+            for ref, indices in selection.vertices.items()
+            if ref in counts and indices[-1] < counts[ref]
+        }
+        anchor = selection.anchor
+        if anchor is not None:
+            keyframe = self.layer.keyframe_at(anchor.frame)
+            pair = keyframe.span.pair_of(anchor.before, anchor.after) if keyframe else None
+            if pair is None or anchor.index >= len(pair.anchors):
+                anchor = None
+        if len(kept) == len(selection.vertices) and anchor is selection.anchor:
+            return selection
+        return Selection(kept, anchor)
+
+    # files
+
+    def new(self, document: Document | None = None, title: str | None = None) -> None:
+        """Start over with a document that has no file."""
+        self._replace(document or Document(), None, title)
+
+    def open(self, path: Path) -> None:
+        """Open a file; raises InkbetweenError and keeps the open document if that fails."""
+        self._replace(load(path), path, None)
+
+    def save(self, path: Path) -> None:
+        """Write the document; raises StorageError and stays modified if that fails."""
+        if self._gesture is not None:
+            self._gesture.commit()
+        save(self._document, path)
+        self.path, self.title = path, None
+        self.undo_stack.setClean()
+        self.fileChanged.emit()
+
+    def _replace(self, document: Document, path: Path | None, title: str | None) -> None:
+        if self._gesture is not None:
+            self._gesture.cancel()
+        self.path, self.title = path, title
+        self._selection = Selection()
+        self._layer_id = document.layers[-1].id
+        diff = DocumentDiff(self._document, document)
+        self._document = document
+        self._frame = 1
+        self.undo_stack.clear()
+        self.frameChanged.emit(1)
+        self.documentChanged.emit(diff)
+        self.layerChanged.emit()
+        self.selectionChanged.emit()
+        self.fileChanged.emit()
