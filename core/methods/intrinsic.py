@@ -24,10 +24,47 @@ an outline without any change to take up the closure error closes too."""
 
 @dataclass(frozen=True, eq=False)
 class Ring:
-    """A closed outline in the row of edges, and how readily each of its edges gives way to close it."""
+    """A closed outline in the row of edges, and how readily its edges give way to close it.
+
+    Attributes
+    ----------
+    rows : slice
+    shares : (2, k) complex array
+        Two ways to share a gap among the edges, per px of length: evenly, and by compliance.
+    softest : float
+        The largest compliance.
+    """
 
     rows: slice
-    compliance: FloatArray
+    shares: ComplexArray
+    softest: float
+
+    @classmethod
+    def of(cls, rows: slice, headings: Headings) -> "Ring":
+        """Return the ring of the outline in `rows`."""
+        compliance = _compliance(headings)
+        return cls(
+            rows, np.stack([np.ones(len(compliance)), compliance]).astype(np.complex128), float(compliance.max())
+        )
+
+    def close(self, work: "_Work") -> None:
+        """Close the polygons in `work` by adding to every edge its share of the gap.
+
+        Shares go by length times compliance. Where that would take more than an edge can give, it goes over
+        smoothly into shares by length alone, which are less than the edge itself whatever the gap (triangle
+        inequality).
+        """
+        edges, lengths, change = (x[:, self.rows] for x in (work.edges, work.lengths, work.change))
+        gap = edges.sum(axis=1)
+        whole, soft = np.maximum(lengths @ self.shares.real.T, np.finfo(np.float64).tiny).T
+        least = np.abs(gap) / whole  # the change of every edge, in lengths of it, if shared evenly
+        most = np.abs(gap) / soft * self.softest
+        room, excess = np.maximum(1 - least, 0.0) ** 2 + 1e-30, np.maximum(most - least, 0.0) ** 2
+        trust = room / (room + excess)
+        coefficients = np.stack([(1 - trust) / whole, trust / soft], axis=1) * -gap[:, None]
+        np.matmul(coefficients, self.shares, out=change)
+        change *= lengths
+        edges += change
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,20 +73,18 @@ class IntrinsicPaths:
 
     Attributes
     ----------
-    half_heading, half_turn : (n,) float array
-        Of every edge, radians: where it points before, and how far it turns.
-    before, growth : (n,) float array
-        Length of every edge before, and how much it gains, px.
+    half_headings : (2, n) float array
+        Half the heading of every edge before and after, radians, whole turns between them included.
+    lengths : (2, n) float array
+        Length of every edge before and after, px.
     outlines : tuple of slice
     rings : tuple of Ring
     bridges : tuple of Bridge
     placement : Placement
     """
 
-    half_heading: FloatArray
-    half_turn: FloatArray
-    before: FloatArray
-    growth: FloatArray
+    half_headings: FloatArray
+    lengths: FloatArray
     outlines: tuple[slice, ...]
     rings: tuple[Ring, ...]
     bridges: tuple[Bridge, ...]
@@ -68,50 +103,45 @@ class IntrinsicPaths:
         whole = joined(found)
         extra = shortest(whole.mean_turn()) + TURN * turns
         return cls(
-            whole.start / 2,
-            (whole.turn + extra) / 2,
-            whole.before,
-            whole.after - whole.before,
+            np.stack([whole.start, whole.start + whole.turn + extra]) / 2,
+            np.stack([whole.before, whole.after]),
             tuple(rows),
-            tuple(Ring(r, _compliance(h)) for r, h, c in zip(rows, found, closed, strict=True) if c),
+            tuple(Ring.of(r, h) for r, h, c in zip(rows, found, closed, strict=True) if c),
             tuple(bridge.turned(extra) for bridge in bridges),
             place(a, b, _vertex_shares(found), whole.mean_turn() + extra),
         )
 
     def evaluate(self, t: FloatArray) -> FloatArray:
         """Vertices at the times `t` (T,), as (T, n, 2) in px."""
-        n = len(self.before)
+        n = self.lengths.shape[1]
         frames = np.zeros((len(t), n), dtype=np.complex128)
         step = max(1, CELLS // n)
         work = _Work.of(min(step, len(t)), n)
         for k in range(0, len(t), step):
-            self._fill(frames[k : k + step], t[k : k + step], work)
+            few = t[k : k + step]
+            self._fill(frames[k : k + step], few, work.first(len(few)))
         return frames.view(np.float64).reshape(len(t), n, 2)
 
     def _fill(self, frames: ComplexArray, t: FloatArray, work: "_Work") -> None:
-        edges, lengths = self._edges(t, work)
+        self._edges(t, work)
         for ring in self.rings:
-            _close(edges[:, ring.rows], lengths[:, ring.rows], ring.compliance)
+            ring.close(work)
         for rows in self.outlines:
-            np.cumsum(edges[:, rows.start : rows.stop - 1], axis=1, out=frames[:, rows.start + 1 : rows.stop])
+            np.cumsum(work.edges[:, rows.start : rows.stop - 1], axis=1, out=frames[:, rows.start + 1 : rows.stop])
         for bridge in self.bridges:
             frames[:, bridge.carried] += bridge.shift(frames, t)[:, None]
         frames += (self.placement.path(t) - frames @ self.placement.weights)[:, None]
 
-    def _edges(self, t: FloatArray, work: "_Work") -> tuple[ComplexArray, FloatArray]:
-        """Edge vectors and lengths (T, n), not yet closed.
+    def _edges(self, t: FloatArray, work: "_Work") -> None:
+        """Fill in the edge vectors and their lengths, not yet closed.
 
         With h the tangent of half the heading, cos = 2 / (1 + h^2) - 1 and sin = 2 h / (1 + h^2): one tangent
         costs a tenth of a sine and a cosine.
         """
-        s = t[:, None]
-        h, lengths, part = work.tangent[: len(t)], work.lengths[: len(t)], work.part[: len(t)]
-        edges = work.edges[: len(t)]
-        np.multiply(s, self.half_turn, out=h)
-        h += self.half_heading
+        h, lengths, part, edges = work.tangent, work.lengths, work.part, work.edges
+        np.matmul(np.stack([1 - t, t], axis=1), self.half_headings, out=h)
         np.tan(h, out=h)
-        np.multiply(s, self.growth, out=lengths)
-        lengths += self.before
+        np.matmul(np.stack([1 - t, t], axis=1), self.lengths, out=lengths)
         if t.min() < 0 or t.max() > 1:
             np.maximum(lengths, 0.0, out=lengths)  # easing that overshoots must not turn a shrinking edge over
         np.multiply(h, h, out=part)
@@ -120,7 +150,6 @@ class IntrinsicPaths:
         part += part
         np.subtract(part, lengths, out=edges.real)
         np.multiply(part, h, out=edges.imag)
-        return edges, lengths
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,11 +160,20 @@ class _Work:
     lengths: FloatArray
     part: FloatArray
     edges: ComplexArray
+    change: ComplexArray
 
     @classmethod
     def of(cls, frames: int, n: int) -> "_Work":
         tangent, lengths, part = np.zeros((3, frames, n))
-        return cls(tangent, lengths, part, np.zeros((frames, n), dtype=np.complex128))
+        edges, change = np.zeros((2, frames, n), dtype=np.complex128)
+        return cls(tangent, lengths, part, edges, change)
+
+    def first(self, frames: int) -> "_Work":
+        """Return the same memory for `frames` frames, at most as many as there are."""
+        if frames == len(self.lengths):
+            return self
+        tangent, lengths, part = (x[:frames] for x in (self.tangent, self.lengths, self.part))
+        return _Work(tangent, lengths, part, self.edges[:frames], self.change[:frames])
 
 
 def _complex(outlines: list[FloatArray]) -> ComplexArray:
@@ -161,21 +199,3 @@ def _compliance(headings: Headings) -> FloatArray:
     bend = (step + np.roll(step, 1)) / 2
     compliance: FloatArray = FIRM + stretch**2 + bend**2
     return compliance
-
-
-def _close(edges: ComplexArray, lengths: FloatArray, compliance: FloatArray) -> None:
-    """Close polygons (T, n), in place, by adding to every edge its share of the gap.
-
-    Shares go by length times compliance. Where that would take more than an edge can give, it goes over smoothly
-    into shares by length alone, which are less than the edge itself whatever the gap (triangle inequality).
-    """
-    gap = edges.sum(axis=1)
-    tiny = np.finfo(np.float64).tiny
-    whole = np.maximum(lengths.sum(axis=1), tiny)
-    soft = np.maximum(lengths @ compliance, tiny)
-    least = np.abs(gap) / whole  # largest change of an edge in lengths of it, by length alone
-    most = np.abs(gap) / soft * compliance.max()
-    room, excess = np.maximum(1 - least, 0.0) ** 2 + tiny, np.maximum(most - least, 0.0) ** 2
-    trust = room / (room + excess)
-    by_length, by_compliance = -gap * (1 - trust) / whole, -gap * trust / soft
-    edges += lengths * (by_length[:, None] + by_compliance[:, None] * compliance)
