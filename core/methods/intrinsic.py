@@ -4,6 +4,7 @@ Sederberg, Gao, Wang and Mu, "2-D shape blending: an intrinsic solution to the v
 with another closure, see docs/decisions/0002-intrinsic-closure.md.
 """
 
+import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -22,6 +23,10 @@ FIRM = 0.03
 an outline without any change to take up the closure error closes too."""
 
 
+ROUNDING = 1e-30
+"""Keeps a quotient of squares finite where both are zero."""
+
+
 @dataclass(frozen=True, eq=False)
 class Ring:
     """A closed outline in the row of edges, and how readily its edges give way to close it.
@@ -31,21 +36,22 @@ class Ring:
     rows : slice
     shares : (2, k) complex array
         Two ways to share a gap among the edges, per px of length: evenly, and by compliance.
-    softest : float
-        The largest compliance.
+    weights : (k, 2) float array
+        The same, to sum lengths with.
+    largest : (2,) float array
+        The largest of each.
     """
 
     rows: slice
     shares: ComplexArray
-    softest: float
+    weights: FloatArray
+    largest: FloatArray
 
     @classmethod
     def of(cls, rows: slice, headings: Headings) -> "Ring":
         """Return the ring of the outline in `rows`."""
-        compliance = _compliance(headings)
-        return cls(
-            rows, np.stack([np.ones(len(compliance)), compliance]).astype(np.complex128), float(compliance.max())
-        )
+        shares = np.stack([np.ones(len(headings.turn)), _compliance(headings)])
+        return cls(rows, shares.astype(np.complex128), shares.T.copy(), shares.max(axis=1))
 
     def close(self, work: "_Work") -> None:
         """Close the polygons in `work` by adding to every edge its share of the gap.
@@ -55,14 +61,15 @@ class Ring:
         inequality).
         """
         edges, lengths, change = (x[:, self.rows] for x in (work.edges, work.lengths, work.change))
-        gap = edges.sum(axis=1)
-        whole, soft = np.maximum(lengths @ self.shares.real.T, np.finfo(np.float64).tiny).T
-        least = np.abs(gap) / whole  # the change of every edge, in lengths of it, if shared evenly
-        most = np.abs(gap) / soft * self.softest
-        room, excess = np.maximum(1 - least, 0.0) ** 2 + 1e-30, np.maximum(most - least, 0.0) ** 2
-        trust = room / (room + excess)
-        coefficients = np.stack([(1 - trust) / whole, trust / soft], axis=1) * -gap[:, None]
-        np.matmul(coefficients, self.shares, out=change)
+        gap = edges.sum(axis=1)[:, None]
+        shares = gap / (lengths @ self.weights + np.finfo(np.float64).tiny)
+        # the largest change of an edge, in lengths of it, if shared evenly and if shared by compliance
+        least, most = (np.abs(shares) * self.largest).T
+        room = (1 - least) ** 2 + ROUNDING
+        trust = room / (room + (most - least) ** 2)
+        shares[:, 0] *= trust - 1
+        shares[:, 1] *= -trust
+        np.matmul(shares, self.shares, out=change)
         change *= lengths
         edges += change
 
@@ -116,13 +123,14 @@ class IntrinsicPaths:
         n = self.lengths.shape[1]
         frames = np.zeros((len(t), n), dtype=np.complex128)
         step = max(1, CELLS // n)
-        work = _Work.of(min(step, len(t)), n)
+        path = self.placement.path(t)
         for k in range(0, len(t), step):
-            few = t[k : k + step]
-            self._fill(frames[k : k + step], few, work.first(len(few)))
+            few = slice(k, k + step)
+            self._fill(frames[few], t[few], path[few])
         return frames.view(np.float64).reshape(len(t), n, 2)
 
-    def _fill(self, frames: ComplexArray, t: FloatArray, work: "_Work") -> None:
+    def _fill(self, frames: ComplexArray, t: FloatArray, path: ComplexArray) -> None:
+        work = _Work.of(*frames.shape)
         self._edges(t, work)
         for ring in self.rings:
             ring.close(work)
@@ -130,7 +138,7 @@ class IntrinsicPaths:
             np.cumsum(work.edges[:, rows.start : rows.stop - 1], axis=1, out=frames[:, rows.start + 1 : rows.stop])
         for bridge in self.bridges:
             frames[:, bridge.carried] += bridge.shift(frames, t)[:, None]
-        frames += (self.placement.path(t) - frames @ self.placement.weights)[:, None]
+        frames += (path - frames @ self.placement.weights)[:, None]
 
     def _edges(self, t: FloatArray, work: "_Work") -> None:
         """Fill in the edge vectors and their lengths, not yet closed.
@@ -139,9 +147,10 @@ class IntrinsicPaths:
         costs a tenth of a sine and a cosine.
         """
         h, lengths, part, edges = work.tangent, work.lengths, work.part, work.edges
-        np.matmul(np.stack([1 - t, t], axis=1), self.half_headings, out=h)
+        shares = np.stack([1 - t, t], axis=1)
+        np.matmul(shares, self.half_headings, out=h)
         np.tan(h, out=h)
-        np.matmul(np.stack([1 - t, t], axis=1), self.lengths, out=lengths)
+        np.matmul(shares, self.lengths, out=lengths)
         if t.min() < 0 or t.max() > 1:
             np.maximum(lengths, 0.0, out=lengths)  # easing that overshoots must not turn a shrinking edge over
         np.multiply(h, h, out=part)
@@ -154,7 +163,7 @@ class IntrinsicPaths:
 
 @dataclass(frozen=True, eq=False)
 class _Work:
-    """Arrays that are filled again for every few frames: fresh memory would cost more than the arithmetic."""
+    """Arrays (T, n) for a few frames at a time."""
 
     tangent: FloatArray
     lengths: FloatArray
@@ -164,16 +173,25 @@ class _Work:
 
     @classmethod
     def of(cls, frames: int, n: int) -> "_Work":
-        tangent, lengths, part = np.zeros((3, frames, n))
-        edges, change = np.zeros((2, frames, n), dtype=np.complex128)
+        """Return kept memory, whatever it holds: fresh memory costs more than the arithmetic done in it."""
+        cells = frames * n
+        if cells > _kept.real.shape[1]:
+            _kept.real = np.zeros((3, cells))
+            _kept.complex = np.zeros((2, cells), dtype=np.complex128)
+        tangent, lengths, part = _kept.real[:, :cells].reshape(3, frames, n)
+        edges, change = _kept.complex[:, :cells].reshape(2, frames, n)
         return cls(tangent, lengths, part, edges, change)
 
-    def first(self, frames: int) -> "_Work":
-        """Return the same memory for `frames` frames, at most as many as there are."""
-        if frames == len(self.lengths):
-            return self
-        tangent, lengths, part = (x[:frames] for x in (self.tangent, self.lengths, self.part))
-        return _Work(tangent, lengths, part, self.edges[:frames], self.change[:frames])
+
+class _Kept(threading.local):
+    """Work memory of one thread, so that previews may be computed beside the window."""
+
+    def __init__(self) -> None:
+        self.real: FloatArray = np.zeros((3, 0))
+        self.complex: ComplexArray = np.zeros((2, 0), dtype=np.complex128)
+
+
+_kept = _Kept()
 
 
 def _complex(outlines: list[FloatArray]) -> ComplexArray:
