@@ -85,13 +85,16 @@ def _extent(p: ComplexArray, weights: FloatArray) -> float:
 
 
 def _similarity(a: ComplexArray, b: ComplexArray, weights: FloatArray) -> tuple[complex, float]:
-    """Rotation and scale, as one complex number, that carry `a` best onto `b`; and how well, 0 to 1."""
+    """Rotation and scale, as one complex number, that carry `a` onto `b`; and how well, 0 to 1.
+
+    The scale is that of the extents and not the least-squares one, so that exchanging the keyframes inverts it.
+    """
     p, q = a - a @ weights, b - b @ weights
     pp, qq = float(weights @ np.abs(p) ** 2), float(weights @ np.abs(q) ** 2)
-    if pp == 0 or qq == 0:
-        return 1.0, 0.0
     pq = complex((np.conj(p) * q) @ weights)
-    return pq / pp, (abs(pq) ** 2 / (pp * qq)) ** 4
+    if abs(pq) ** 2 <= 1e-12 * pp * qq:
+        return 1.0, 0.0
+    return pq / abs(pq) * np.sqrt(qq / pp), (abs(pq) ** 2 / (pp * qq)) ** 4
 
 
 def _arm(shift: complex, similarity: complex) -> complex:
