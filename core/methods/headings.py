@@ -20,6 +20,9 @@ TURN = 2 * np.pi
 SOLID = 1e-9
 """Share of the mean length above which an edge has a direction of its own and not one made of rounding."""
 
+FOLD = 1e-7
+"""Radians: a turning angle this near a half turn, or none, has no side of its own."""
+
 TIE = 6
 """Decimals to which two turning angles are told apart; finer differences are rounding and must not decide."""
 
@@ -105,15 +108,11 @@ def headings(a: ComplexArray, b: ComplexArray, *, closed: bool) -> Headings:
     outlines go round differently often (opposite directions), whole turns have to break somewhere: they do
     at the vertices whose turning angles differ most, which depends on no start vertex.
     """
-    za, zb = _edges(a, closed), _edges(b, closed)
-    before, after = np.abs(za), np.abs(zb)
-    solid_a, solid_b = _solid(before, a), _solid(after, b)
-    firm = solid_a & solid_b
-    turn = np.zeros(len(a))
-    if firm.any():
-        turn = _turns(za, zb, solid_a, solid_b, np.abs(b - a), closed)
-    start = np.where(solid_a, np.angle(za), np.where(solid_b, np.angle(zb) - turn, 0.0))
-    return Headings(before, after, start, turn, bool(firm.any()))
+    left, right = _Side.of(a, closed), _Side.of(b, closed)
+    firm = left.solid & right.solid
+    turn = _turns(left, right, closed) if firm.any() else np.zeros(len(a))
+    start = np.where(left.solid, left.heading, np.where(right.solid, right.heading - turn, 0.0))
+    return Headings(left.lengths, right.lengths, start, turn, bool(firm.any()))
 
 
 def shortest(mean: float) -> float:
@@ -121,59 +120,98 @@ def shortest(mean: float) -> float:
     return float(-TURN * np.ceil((mean - np.pi) / TURN - 1e-9))
 
 
-def _edges(p: ComplexArray, closed: bool) -> ComplexArray:
-    return np.append(p[1:], p[0] if closed else p[-1]) - p
+@dataclass(frozen=True, eq=False)
+class _Side:
+    """The edges of an outline in one keyframe: lengths, headings in (-pi, pi], and which of them are solid."""
+
+    points: ComplexArray
+    lengths: FloatArray
+    heading: FloatArray
+    solid: BoolArray
+
+    @classmethod
+    def of(cls, p: ComplexArray, closed: bool) -> "_Side":
+        z = np.append(p[1:], p[0] if closed else p[-1]) - p
+        lengths = np.abs(z)
+        noise = 8 * np.finfo(np.float64).eps * float(np.abs(p).max())
+        return cls(p, lengths, np.angle(z), lengths > max(SOLID * float(lengths.mean()), noise))
+
+    def turnings(self) -> FloatArray:
+        """Turning angle from the solid edge before to every solid edge, in (-pi, pi]; 0 at the others."""
+        heading = self.heading[self.solid]
+        raw = heading - np.roll(heading, 1)
+        out = np.zeros(len(self.lengths))
+        out[self.solid] = raw - TURN * np.ceil((raw - np.pi) / TURN)
+        return out
+
+    def unwrapped(self, turnings: FloatArray) -> FloatArray:
+        """Heading of the solid edges without jumps; 0 at the others."""
+        i = np.flatnonzero(self.solid)
+        out = np.zeros(len(turnings))
+        out[i] = self.heading[i[0]] + np.concatenate([[0.0], np.cumsum(turnings[i[1:]])])
+        return out
 
 
-def _solid(lengths: FloatArray, p: ComplexArray) -> BoolArray:
-    noise = 8 * np.finfo(np.float64).eps * float(np.abs(p).max())
-    return lengths > max(SOLID * float(lengths.mean()), noise)
-
-
-def _turns(
-    za: ComplexArray, zb: ComplexArray, solid_a: BoolArray, solid_b: BoolArray, travel: FloatArray, closed: bool
-) -> FloatArray:
+def _turns(left: _Side, right: _Side, closed: bool) -> FloatArray:
     """Turn of every edge; between the edges solid in both keyframes it is interpolated along the outline.
 
     So an edge that grows out of a vertex takes part in the turn of its neighbours, whatever its own direction.
     """
-    i = np.flatnonzero(solid_a & solid_b)
-    ha, whole_a = _unwrapped(za, solid_a)
-    hb, whole_b = _unwrapped(zb, solid_b)
-    difference = hb[i] - ha[i]
-    steps = np.diff(difference, append=difference[0] + whole_b - whole_a)  # change of turn after each firm edge
+    n = len(left.points)
+    i = np.flatnonzero(left.solid & right.solid)
+    before, after = _turning_angles(left, right)
+    difference = right.unwrapped(after)[i] - left.unwrapped(before)[i]
+    gained = float(after.sum() - before.sum())
+    steps = np.diff(difference, append=difference[0] + gained)  # change of turn after each of these edges
     if closed:
-        steps -= TURN * _breaks(steps, travel[(i + 1) % len(za)])
+        steps -= TURN * _breaks(steps, np.abs(right.points - left.points)[(i + 1) % n])
     turn: FloatArray = difference[0] + np.concatenate([[0.0], np.cumsum(steps[:-1])])
-    if len(i) == len(za):
+    if len(i) == n:
         return turn
     if closed:  # once round, the turn is the first one again
-        i, turn = np.append(i, i[0] + len(za)), np.append(turn, turn[0])
-    every = np.arange(len(za))
-    at = np.where(every < i[0], every + len(za), every) if closed else every
+        i, turn = np.append(i, i[0] + n), np.append(turn, turn[0])
+    every = np.arange(n)
+    at = np.where(every < i[0], every + n, every) if closed else every
     return np.asarray(np.interp(at, i, turn), np.float64)
 
 
-def _unwrapped(z: ComplexArray, solid: BoolArray) -> tuple[FloatArray, float]:
-    """Heading of the solid edges without jumps (the others are 0), and the turning angle once round."""
-    z_solid = z[solid]
-    turning = np.angle(np.roll(z_solid, -1) * np.conj(z_solid))
-    out = np.zeros(len(z))
-    out[solid] = np.angle(z_solid[0]) + np.concatenate([[0.0], np.cumsum(turning[:-1])])
-    return out, float(turning.sum())
+def _turning_angles(left: _Side, right: _Side) -> tuple[FloatArray, FloatArray]:
+    """Turning angles in both keyframes, with each fold-back turning to the side that the other keyframe shows.
+
+    A fold-back, such as the tip of a line drawn there and back, turns by +pi or by -pi as rounding will have it.
+    """
+    before, after = left.turnings(), right.turnings()
+    if max(np.abs(before).max(), np.abs(after).max()) <= np.pi - FOLD:
+        return before, after
+    hand = _hand(left.points) + _hand(right.points)
+    hand = -1.0 if hand < -FOLD else 1.0
+    return _unfolded(before, after, hand), _unfolded(after, before, hand)
+
+
+def _unfolded(turnings: FloatArray, other: FloatArray, hand: float) -> FloatArray:
+    folded = np.abs(turnings) > np.pi - FOLD
+    plain = (np.abs(other) > FOLD) & (np.abs(other) < np.pi - FOLD)
+    return np.where(folded, np.copysign(np.pi, np.where(plain, other, hand)), turnings)
+
+
+def _hand(p: ComplexArray) -> float:
+    """Area that the outline goes round, from x towards y, for a size of 1: its sign is what a mirror changes."""
+    q = p - p[0]
+    q = q / float(np.abs(q).max())
+    return float((q.real * np.roll(q.imag, -1) - q.imag * np.roll(q.real, -1)).sum())
 
 
 def _breaks(steps: FloatArray, travel: FloatArray) -> FloatArray:
-    """Whole turns to take from each step so that their sum is 0: always from the step that is widest then.
+    """Whole turns to take from each step so that their sum is 0: one each from the widest steps.
 
     Ties (a square and its mirror image) go to the vertex that travels least, then to the first.
     """
-    left = steps.copy()
     count = int(np.rint(steps.sum() / TURN))
+    if count == 0:
+        return np.zeros(len(steps))
     sign = np.sign(count)
     reach = np.round(travel / (travel.max() or 1.0), TIE)
-    for _ in range(abs(count)):
-        k = np.lexsort((reach, -np.round(sign * left, TIE)))[0]
-        left[k] -= sign * TURN
-    breaks: FloatArray = np.rint((steps - left) / TURN)
+    widest = np.lexsort((reach, -np.round(sign * steps, TIE)))
+    places = widest[np.arange(abs(count)) % len(steps)]
+    breaks: FloatArray = sign * np.bincount(places, minlength=len(steps))
     return breaks

@@ -151,6 +151,7 @@ def test_mirroring_both_keyframes_mirrors_the_frames(pair):
 @given(pairs(), st.integers(0, 15))
 def test_opposite_directions_depend_on_neither_start_nor_exchange(pair, first):
     a, b = pair
+    assume(not np.allclose(a, b))  # an outline and its own reverse tie everywhere
     b = b[::-1].copy()
     assume(well_told(a, b))
     frames = inbetween(a, b, TIMES)
@@ -301,6 +302,21 @@ def test_a_fold_back_on_both_sides_is_no_break():
     for angle in np.linspace(-3, 3, 13):
         frames = inbetween(a, a @ rotation(angle), TIMES)
         assert_same(edges(frames[4]), edges(a @ rotation(angle / 2)))
+
+
+def test_a_line_drawn_there_and_back_bends_the_same_at_every_turn():
+    there = np.stack([np.linspace(0, 300, 7), np.zeros(7)], axis=1)
+    s = np.linspace(0, 1.5, 7)
+    bent = 200 * np.stack([np.sin(s), 1 - np.cos(s)], axis=1)
+    a, b = (np.concatenate([p, p[-2:0:-1]]) for p in (there, bent))
+    frames = inbetween(a, b, TIMES)
+    assert_same(frames[:, 1:6], frames[:, :6:-1], tolerance=1e-6)
+    for angle in np.linspace(-3, 3, 25):
+        assert_same(inbetween(a @ rotation(angle), b @ rotation(angle), TIMES), frames @ rotation(angle))
+        assert_same(
+            inbetween(a[::-1] @ rotation(angle), b[::-1] @ rotation(angle), TIMES)[:, ::-1],
+            frames @ rotation(angle),
+        )
 
 
 def spiral(winds, n=120):
