@@ -6,11 +6,12 @@ from pathlib import Path
 
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QIcon
-from PySide6.QtWidgets import QApplication, QMenu, QMessageBox
+from PySide6.QtWidgets import QApplication, QMenu
 
 import resources
 from app import editing
 from app.dialogs.export import ExportDialog
+from app.dialogs.help import show_about, show_keys
 from app.dialogs.stage import StageDialog
 from app.editing import Clipboard
 from app.files import Files
@@ -65,7 +66,7 @@ class Editor(QObject):
         )
 
     def _file_runs(self):
-        files = self.files
+        files, window = self.files, self.window
         return {
             "file.new": files.new,
             "file.open": files.open,
@@ -75,8 +76,10 @@ class Editor(QObject):
             "file.export": self.export_frames,
             "file.close": files.new,
             "file.quit": self.window.close,
-            "help.keys": self.show_keys,
-            "help.about": self.show_about,
+            "help.keys": lambda: show_keys(
+                self.window, self.window.tools.values(), self.window.table.actions.values()
+            ),
+            "help.about": lambda: show_about(window),
         }
 
     def _edit_runs(self):
@@ -263,47 +266,6 @@ class Editor(QObject):
 
     def _forget_dialog(self) -> None:
         self.export_dialog = None
-
-    def show_keys(self) -> None:
-        """List every tool's hint and every key."""
-        rows = [
-            f"<p><b>{t.name} ({t.shortcut})</b><br>{t.hint.split(': ', 1)[1]}</p>"
-            for t in self.window.tools.values()
-        ]
-        keys = [
-            f"<tr><td><b>{a.shortcut().toString()}</b>&nbsp;&nbsp;</td><td>{a.text().replace('&', '')}</td></tr>"
-            for a in self.window.table.actions.values()
-            if not a.shortcut().isEmpty()
-        ]
-        half = (len(keys) + 1) // 2
-        text = (
-            "".join(rows)
-            + "<p>Canvas: Space + drag or the middle button pans, the wheel zooms at the pointer.</p><table><tr>"
-            + "".join(
-                f"<td><table>{''.join(part)}</table></td><td>&nbsp;&nbsp;&nbsp;</td>"
-                for part in (keys[:half], keys[half:])
-            )
-            + "</tr></table>"
-        )
-        self._show_text("Keys and Mouse", text)
-
-    def show_about(self) -> None:
-        from importlib.metadata import version
-
-        self._show_text(
-            "About Inkbetween",
-            f"<p><b>Inkbetween {version('inkbetween')}</b></p>"
-            "<p>Draw keyframes, say which point goes where, see every in-between at once.</p>"
-            "<p>MIT licence. Made with Qt for Python, NumPy, SciPy and pyqtgraph.</p>",
-        )
-
-    def _show_text(self, title: str, text: str) -> None:
-        box = QMessageBox(self.window)
-        box.setWindowTitle(title)
-        box.setTextFormat(Qt.TextFormat.RichText)
-        box.setText(text)
-        box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        box.open()
 
     # opening and closing
 

@@ -88,7 +88,7 @@ class Window(QMainWindow):
         self.split.addWidget(self.canvas)
         self.split.addWidget(self.timeline)
         self.split.setStretchFactor(0, 1)
-        self.split.setSizes([640, 210])
+        self.split.setSizes([660, 190])
         row.addWidget(self._toolbox())
         row.addWidget(self.split, 1)
         row.addWidget(self._side())
@@ -164,7 +164,7 @@ class Window(QMainWindow):
                 self.recent_menu = menu.addMenu(spec.text)
             else:
                 menu.addAction(self.table[spec.id])
-        corner = QWidget()
+        corner = QWidget(self.menuBar())
         row = QHBoxLayout(corner)
         row.setContentsMargins(0, 2, 10, 2)
         row.setSpacing(4)
@@ -206,9 +206,8 @@ class Window(QMainWindow):
         self.setWindowModified(self.session.is_modified)
         if self.session.path is not None:
             self.setWindowFilePath(str(self.session.path))
-        self.state_label.setText(
-            "unsaved changes" if self.session.is_modified else "saved" if self.session.path else ""
-        )
+        saved = "saved" if self.session.path is not None else ""
+        self.state_label.setText("unsaved changes" if self.session.is_modified else saved)
 
     def set_theme(self, theme: Theme) -> None:
         """Repaint everything in another theme."""
