@@ -1,4 +1,4 @@
-"""How the drawing is painted: fill, stroke and width of the keyframes at the playhead; and the pencil's tolerance."""
+"""How the keyframes at the playhead are painted: fill, stroke and width; and the pencil's tolerance."""
 
 from collections.abc import Callable
 from dataclasses import replace

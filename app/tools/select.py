@@ -220,7 +220,7 @@ class SelectTool(Tool):
     # the box round the selection
 
     def _box(self) -> QRectF | None:
-        """The rectangle round the selected vertices in stage px, or None where there is nothing to turn or scale."""
+        """The rectangle round the selected vertices in stage px; None where there is nothing to turn."""
         session = self.canvas.session
         if session.selection.count < 2:
             return None
