@@ -35,10 +35,10 @@ def no_display(monkeypatch):
 
 @pytest.fixture
 def opened(monkeypatch):
-    """The paths that a stand-in for the window was asked to open."""
+    """What a stand-in for the window was asked to open: paths, and whether they are samples."""
     paths = []
     window = types.ModuleType("app.bootstrap")
-    window.run = lambda path: paths.append(path) or 0
+    window.run = lambda path, sample: paths.append((path, sample)) or 0
     monkeypatch.setitem(sys.modules, "app.bootstrap", window)
     monkeypatch.setattr(app, "bootstrap", window, raising=False)
     return paths
@@ -190,7 +190,7 @@ def test_ctrl_c_stops_between_frames_with_130_and_no_traceback(tmp_path):
 def test_a_file_is_opened_in_the_editor(project, opened):
     assert main([str(project)]) == 0
     assert main([]) == 0
-    assert opened == [str(project), None]
+    assert opened == [(str(project), False), (None, False)]
 
 
 def test_a_command_comes_before_a_file_of_its_name(project, opened, tmp_path, monkeypatch):
@@ -199,7 +199,7 @@ def test_a_command_comes_before_a_file_of_its_name(project, opened, tmp_path, mo
     assert main(["./info"]) == 0
     assert main(["--", "info"]) == 0
     assert main(["info"]) == 2
-    assert opened == ["./info", "info"]
+    assert opened == [("./info", False), ("info", False)]
 
 
 def test_without_a_display_the_editor_says_so(project, opened, no_display, capsys):
@@ -212,7 +212,7 @@ def test_without_a_display_the_editor_says_so(project, opened, no_display, capsy
 
 def test_demo_opens_the_sample(opened):
     assert main(["demo"]) == 0
-    assert opened == [str(resources.folder() / "samples" / f"{resources.DEMO}.inkb")]
+    assert opened == [(str(resources.folder() / "samples" / f"{resources.DEMO}.inkb"), True)]
 
 
 def test_demo_without_a_display_exports_beside_what_is_there(no_display, tmp_path, monkeypatch, capsys):
