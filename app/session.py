@@ -100,12 +100,16 @@ class Gesture:
         """The document as it was when the gesture began."""
         return self.before.document
 
-    def update(self, edit: Callable[..., Document], *args: Any, **options: Any) -> bool:
-        """Show the first document with `edit` applied; an edit that is refused leaves the last picture."""
+    def update(self, edit: Callable[[Document], Document], *, quiet: bool = False) -> bool:
+        """Show the first document with `edit` applied; one that is refused leaves the last picture.
+
+        Why it was refused is told in the message bar, unless `quiet`.
+        """
         try:
-            document = edit(self.document, *args, **options)
+            document = edit(self.document)
         except InkbetweenError as e:
-            self._session.problem.emit(str(e))
+            if not quiet:
+                self._session.problem.emit(str(e))
             return False
         self._session.show_document(document)
         return True

@@ -1,6 +1,9 @@
 """Colours and shapes of the window: one set of tokens, light and dark."""
 
 from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from PySide6.QtCore import QByteArray, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QIcon, QPainter, QPalette, QPixmap
@@ -161,13 +164,16 @@ QPushButton {{ background: {t.raised}; color: {t.text}; border: 1px solid {t.lin
     padding: 5px 14px; min-height: 18px; }}
 QPushButton:hover {{ border-color: {t.muted}; }}
 QPushButton:pressed {{ background: {t.line}; }}
+QPushButton:checked {{ background: {t.accent}; color: {t.accent_text}; border-color: {t.accent}; }}
 QPushButton:default {{ background: {t.accent}; color: {t.accent_text}; border-color: {t.accent}; }}
 QPushButton:disabled {{ color: {t.muted}; background: {t.panel}; border-color: {t.line}; }}
-QPushButton[flat="true"] {{ background: transparent; border-color: transparent; color: {t.accent}; padding: 4px 6px; }}
+QPushButton[flat="true"] {{ background: transparent; border-color: transparent; color: {t.accent};
+    padding: 4px 6px; }}
 QPushButton[flat="true"]:disabled {{ color: {t.muted}; }}
 QLineEdit, QSpinBox, QDoubleSpinBox, QComboBox {{ background: {t.raised}; color: {t.text};
     border: 1px solid {t.line}; border-radius: 7px; padding: 3px 8px; min-height: 20px;
     selection-background-color: {t.accent}; selection-color: {t.accent_text}; }}
+QComboBox::down-arrow {{ image: url({_drawn("down", t.muted)}); width: 12px; height: 12px; }}
 QLineEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus, QComboBox:focus {{ border-color: {t.accent}; }}
 QLineEdit:disabled, QSpinBox:disabled, QDoubleSpinBox:disabled, QComboBox:disabled {{ color: {t.muted}; }}
 QSpinBox::up-button, QSpinBox::down-button, QDoubleSpinBox::up-button, QDoubleSpinBox::down-button {{
@@ -178,7 +184,8 @@ QComboBox QAbstractItemView {{ background: {t.panel}; color: {t.text}; border: 1
 QCheckBox {{ color: {t.text}; spacing: 8px; }}
 QCheckBox::indicator {{ width: 15px; height: 15px; border: 1px solid {t.muted}; border-radius: 4px;
     background: {t.raised}; }}
-QCheckBox::indicator:checked {{ background: {t.accent}; border-color: {t.accent}; }}
+QCheckBox::indicator:checked {{ background: {t.accent}; border-color: {t.accent};
+    image: url({_drawn("check", t.accent_text)}); }}
 QSlider::groove:horizontal {{ height: 4px; background: {t.line}; border-radius: 2px; }}
 QSlider::sub-page:horizontal {{ background: {t.accent}; border-radius: 2px; }}
 QSlider::handle:horizontal {{ width: 12px; height: 12px; margin: -4px 0; border-radius: 6px;
@@ -196,6 +203,20 @@ QFrame#messagebar {{ background: {t.raised}; border: 1px solid {t.line}; border-
 QFrame#messagebar[kind="error"] {{ border-color: {t.error}; }}
 QFrame#messagebar[kind="info"] {{ border-color: {t.accent}; }}
 """
+
+
+def _drawn(name: str, color: str) -> str:
+    """Return a file with an icon in a colour: a style sheet takes pictures from files only."""
+    folder = Path(_picture_folder().name)
+    path = folder / f"{name}-{color[1:]}.png"
+    if not path.exists():
+        pixmap(name, QColor(color), 24, 1.0).save(str(path))
+    return path.as_posix()
+
+
+@cache
+def _picture_folder() -> TemporaryDirectory[str]:
+    return TemporaryDirectory(prefix="inkbetween-")
 
 
 def icon(name: str, theme: Theme) -> QIcon:

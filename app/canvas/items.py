@@ -149,7 +149,7 @@ class LinesItem(CanvasItem):
     """The correspondence: fine dotted lines from point to point, the anchors' solid."""
 
     def draw(self, painter: QPainter, content: Content) -> None:
-        if content.options.final or content.plan is None:
+        if content.options.final or content.plan is None or content.films:
             return
         for start_paper, end_paper in line_papers(content):
             if content.options.lines == "all":
@@ -166,7 +166,8 @@ class LinesItem(CanvasItem):
         for link in content.plan.links if content.plan else ():
             left, right = link.aligned.left, link.aligned.right
             rows = spread_rows(left, right, link.aligned.closed)
-            for p, q in zip(camera.to_view(left[rows], start.offset), camera.to_view(right[rows], end.offset)):
+            ends = camera.to_view(left[rows], start.offset), camera.to_view(right[rows], end.offset)
+            for p, q in zip(*ends, strict=True):
                 path.moveTo(p[0], p[1])
                 path.lineTo(q[0], q[1])
         painter.drawPath(path)
@@ -189,7 +190,8 @@ class HandlesItem(CanvasItem):
         tool = self.canvas.tool
         if tool is not None and tool.shows_vertices:
             self._draw_vertices(painter, content)
-        if content.options.lines != "none" or (tool is not None and tool.shows_anchors):
+        wanted = content.options.lines != "none" and not content.films
+        if wanted or (tool is not None and tool.shows_anchors):
             self._draw_anchors(painter, content)
         self._draw_hover(painter)
 
@@ -199,7 +201,7 @@ class HandlesItem(CanvasItem):
         for paper, side, ref, outline in content.outlines():
             points = camera.to_view(outline.points, paper.offset)
             spacing = camera.scale * perimeter(outline.points, closed=outline.closed) / len(points)
-            if spacing >= CLOSEST_VERTICES:
+            if spacing >= CLOSEST_VERTICES and not content.films:
                 draw_dots(painter, points, theme.color(side), theme.color("stage"))
             chosen = selected.get(ref)
             if chosen:
@@ -233,7 +235,9 @@ class LabelsItem(CanvasItem):
         stage, camera = content.document.stage, self.canvas.camera
         for paper in content.papers:
             rect = camera.transform().mapRect(paper.rect(stage))
-            self._draw_words(painter, self._words(content, paper), rect)
+            # small papers beside each other leave no room for words on them
+            top = rect.top() + 24 if len(content.papers) == 1 else rect.top() - 10
+            self._draw_words(painter, self._words(content, paper), rect.left() + 14, top, rect.width())
         if content.before is None and content.after is None and not self._busy():
             rect = camera.transform().mapRect(content.papers[0].rect(stage))
             painter.setPen(self.canvas.theme.color("muted"))
@@ -256,18 +260,19 @@ class LabelsItem(CanvasItem):
     def _between(self, content: Content) -> bool:
         return content.frame not in {k.frame for k in (content.before, content.after) if k is not None}
 
-    def _draw_words(self, painter: QPainter, words: list[tuple[str, str]], rect: QRectF) -> None:
+    def _draw_words(
+        self, painter: QPainter, words: list[tuple[str, str]], x: float, y: float, room: float
+    ) -> None:
         font = QFont(painter.font())
         font.setPixelSize(12)
         painter.setFont(font)
         measure = QFontMetricsF(font)
         width = sum(measure.horizontalAdvance(text) + 24 for text, _ in words)
-        if width > rect.width():
+        if width > room:
             return
-        x = rect.left() + 14
         for text, token in words:
             painter.setPen(self.canvas.theme.color(token))
-            painter.drawText(QPointF(x, rect.top() + 24), text)
+            painter.drawText(QPointF(x, y), text)
             x += measure.horizontalAdvance(text) + 24
 
 
@@ -290,10 +295,8 @@ def spread_rows(left: FloatArray, right: FloatArray, closed: bool) -> FloatArray
     """Return the indices of at most MOST_LINES rows, evenly spread along both outlines."""
     if len(left) <= MOST_LINES:
         return np.arange(len(left))
-    along = sum(
-        s[: len(left)] / max(s[-1], 1e-12)
-        for s in (arc_lengths(left, closed=closed), arc_lengths(right, closed=closed))
-    )
+    lengths = (arc_lengths(side, closed=closed) for side in (left, right))
+    along = sum(s[: len(left)] / max(float(s[-1]), 1e-12) for s in lengths)
     return np.unique(np.searchsorted(along, np.linspace(0, float(along[-1]), MOST_LINES)).clip(0, len(left) - 1))
 
 

@@ -26,7 +26,7 @@ class Paper:
     method : str or None
         The method of its in-betweens; None: the span's own.
     title : str
-        Empty on a paper that stands alone.
+        Said on the paper before anything else.
     """
 
     offset: float
@@ -43,9 +43,9 @@ def papers_for(arrangement: str, stage: Stage) -> tuple[Paper, ...]:
     step = stage.width * (1 + GAP)
     if arrangement == "side by side":
         return (
-            Paper(0, frozenset({BEFORE}), title="before"),
-            Paper(step, frozenset({INBETWEEN}), title="in-between"),
-            Paper(2 * step, frozenset({AFTER}), title="after"),
+            Paper(0, frozenset({BEFORE})),
+            Paper(step, frozenset({INBETWEEN})),
+            Paper(2 * step, frozenset({AFTER})),
         )
     if arrangement == "compare":
         shown = frozenset({BEFORE, AFTER, FILM})

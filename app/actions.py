@@ -1,0 +1,181 @@
+"""The table of actions: what every menu entry and button is called, its keys and its icon. No logic is here."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from PySide6.QtCore import QObject, Qt
+from PySide6.QtGui import QAction, QActionGroup, QKeySequence
+
+from app.theme import Theme, icon
+
+
+@dataclass(frozen=True, slots=True)
+class ActionSpec:
+    """One row of the table.
+
+    Attributes
+    ----------
+    id : str
+        What the code calls it.
+    menu : str
+        The menu it stands in; "" for none.
+    text : str
+    keys : tuple of str
+        The first one is shown.
+    icon : str
+    checkable : bool
+    group : str
+        Of a group exactly one is checked.
+    tip : str
+        Told in the tooltip before the keys; the text itself when empty.
+    """
+
+    id: str
+    menu: str
+    text: str
+    keys: tuple[str, ...] = ()
+    icon: str = ""
+    checkable: bool = False
+    group: str = ""
+    tip: str = ""
+
+
+def _line(menu: str) -> ActionSpec:
+    return ActionSpec("", menu, "")
+
+
+ACTIONS: tuple[ActionSpec, ...] = (
+    ActionSpec("file.new", "File", "New", ("Ctrl+N",), "new"),
+    ActionSpec("file.open", "File", "Open…", ("Ctrl+O",), "open"),
+    ActionSpec("file.recent", "File", "Open Recent"),
+    _line("File"),
+    ActionSpec("file.save", "File", "Save", ("Ctrl+S",), "save"),
+    ActionSpec("file.save_as", "File", "Save As…", ("Ctrl+Shift+S",)),
+    _line("File"),
+    ActionSpec("file.stage", "File", "Stage…", (), "settings", tip="Size and colour of the paper"),
+    ActionSpec("file.export", "File", "Export Frames…", ("Ctrl+E",), "export"),
+    _line("File"),
+    ActionSpec("file.close", "File", "Close", ("Ctrl+W",)),
+    ActionSpec("file.quit", "File", "Quit", ("Ctrl+Q",)),
+    ActionSpec("edit.undo", "Edit", "Undo", ("Ctrl+Z",), "undo"),
+    ActionSpec("edit.redo", "Edit", "Redo", ("Ctrl+Shift+Z", "Ctrl+Y"), "redo"),
+    _line("Edit"),
+    ActionSpec("edit.cut", "Edit", "Cut", ("Ctrl+X",)),
+    ActionSpec("edit.copy", "Edit", "Copy", ("Ctrl+C",), "copy"),
+    ActionSpec("edit.paste", "Edit", "Paste", ("Ctrl+V",)),
+    ActionSpec("edit.delete", "Edit", "Delete", ("Delete",), "delete", tip="Take away what is selected"),
+    _line("Edit"),
+    ActionSpec("edit.select_all", "Edit", "Select All", ("Ctrl+A",)),
+    ActionSpec("edit.select_none", "Edit", "Select None", ("Ctrl+Shift+A",)),
+    ActionSpec("view.overlaid", "View", "Overlaid", ("1",), "overlay", checkable=True, group="arrangement"),
+    ActionSpec("view.side", "View", "Side by Side", ("2",), "side-by-side", checkable=True, group="arrangement"),
+    ActionSpec(
+        "view.compare",
+        "View",
+        "Compare Methods",
+        ("3",),
+        "compare",
+        checkable=True,
+        group="arrangement",
+        tip="Linear and intrinsic beside each other, at t = 0, 0.2 ... 1",
+    ),
+    _line("View"),
+    ActionSpec("view.onion", "View", "Onion Skin", ("O",), "onion", checkable=True),
+    ActionSpec(
+        "view.lines", "View", "Next Kind of Lines", ("L",), tip="Lines of the correspondence: all, anchors, none"
+    ),
+    ActionSpec(
+        "view.final", "View", "Final Look", ("F9",), "visible", checkable=True, tip="As exported, without helpers"
+    ),
+    _line("View"),
+    ActionSpec("view.fit", "View", "Fit Stage", ("F",), "fit"),
+    ActionSpec("view.zoom_in", "View", "Zoom In", ("Ctrl++", "Ctrl+=")),
+    ActionSpec("view.zoom_out", "View", "Zoom Out", ("Ctrl+-",)),
+    ActionSpec("view.actual", "View", "Actual Size", ("Ctrl+0",)),
+    _line("View"),
+    ActionSpec("view.theme_system", "View", "Theme of the System", (), "", checkable=True, group="theme"),
+    ActionSpec("view.theme_light", "View", "Light Theme", (), "", checkable=True, group="theme"),
+    ActionSpec("view.theme_dark", "View", "Dark Theme", (), "", checkable=True, group="theme"),
+    ActionSpec("tool.select", "Draw", "Select", ("V",), "select", checkable=True, group="tool"),
+    ActionSpec("tool.pen", "Draw", "Pen", ("P",), "pen", checkable=True, group="tool"),
+    ActionSpec("tool.pencil", "Draw", "Pencil", ("B",), "pencil", checkable=True, group="tool"),
+    ActionSpec("tool.correspond", "Draw", "Correspond", ("C",), "correspond", checkable=True, group="tool"),
+    _line("Draw"),
+    ActionSpec(
+        "key.add",
+        "Draw",
+        "Add Keyframe Here",
+        ("F6",),
+        "add",
+        tip="Make a keyframe of what is shown at the playhead: a breakdown, or a copy of the drawing that holds",
+    ),
+    ActionSpec(
+        "key.copy",
+        "Draw",
+        "Copy Drawing to Other Keyframe",
+        ("Ctrl+D",),
+        tip="Put a copy of the drawing into the other keyframe of the span, or on the last frame if there is none",
+    ),
+    ActionSpec(
+        "key.delete", "Draw", "Delete Keyframe", ("Shift+F6",), tip="Take away the keyframe at the playhead"
+    ),
+    ActionSpec("span.linear", "Span", "Linear", (), "", checkable=True, group="method"),
+    ActionSpec("span.intrinsic", "Span", "Intrinsic", (), "", checkable=True, group="method"),
+    _line("Span"),
+    ActionSpec("span.clear", "Span", "Clear Anchors"),
+    _line("Span"),
+    ActionSpec("play.toggle", "Span", "Play", ("Space",), "play"),
+    ActionSpec("play.loop", "Span", "Loop", (), "loop", checkable=True),
+    ActionSpec("play.previous", "Span", "Previous Frame", (",", "Left"), "previous"),
+    ActionSpec("play.next", "Span", "Next Frame", (".", "Right"), "next"),
+    ActionSpec("play.previous_key", "Span", "Previous Keyframe", ("Ctrl+,",)),
+    ActionSpec("play.next_key", "Span", "Next Keyframe", ("Ctrl+.",)),
+    ActionSpec("play.first", "Span", "First Frame", ("Home",), "first"),
+    ActionSpec("play.last", "Span", "Last Frame", ("End",), "last"),
+    ActionSpec("help.keys", "Help", "Keys and Mouse", ("F1",)),
+    ActionSpec("help.about", "Help", "About Inkbetween"),
+)
+MENUS = ("File", "Edit", "View", "Draw", "Span", "Samples", "Help")
+
+
+class ActionTable(QObject):
+    """The QActions of the table, by id."""
+
+    def __init__(self, theme: Theme, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.actions: dict[str, QAction] = {}
+        self._specs = {spec.id: spec for spec in ACTIONS if spec.id}
+        self._groups: dict[str, QActionGroup] = {}
+        for spec in self._specs.values():
+            self.actions[spec.id] = self._made(spec)
+        self.set_theme(theme)
+
+    def _made(self, spec: ActionSpec) -> QAction:
+        action = QAction(spec.text, self)
+        action.setObjectName(spec.id)
+        action.setShortcuts([QKeySequence(k) for k in spec.keys])
+        action.setShortcutContext(Qt.ShortcutContext.WindowShortcut)
+        action.setCheckable(spec.checkable)
+        tip = spec.tip or spec.text.rstrip("…")
+        action.setToolTip(f"{tip} ({spec.keys[0]})" if spec.keys else tip)
+        action.setStatusTip("")
+        if spec.group:
+            group = self._groups.setdefault(spec.group, QActionGroup(self))
+            group.addAction(action)
+        return action
+
+    def set_theme(self, theme: Theme) -> None:
+        for spec in self._specs.values():
+            if spec.icon:
+                self.actions[spec.id].setIcon(icon(spec.icon, theme))
+                self.actions[spec.id].setIconVisibleInMenu(False)
+
+    def connect_all(self, runs: dict[str, Callable[[], object]]) -> None:
+        """Give every action what it runs; a missing or surplus one is a mistake in the program."""
+        if runs.keys() != self.actions.keys() - {"file.recent"}:
+            raise KeyError(f"actions and functions differ: {sorted(runs.keys() ^ self.actions.keys())}")
+        for name, run in runs.items():
+            self.actions[name].triggered.connect(lambda _=False, run=run: run())
+
+    def __getitem__(self, name: str) -> QAction:
+        return self.actions[name]

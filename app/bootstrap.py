@@ -1,0 +1,329 @@
+"""The one place that builds everything and connects it."""
+
+import signal
+import sys
+from pathlib import Path
+
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer
+from PySide6.QtGui import QCloseEvent, QGuiApplication, QIcon
+from PySide6.QtWidgets import QApplication, QMenu
+
+import resources
+from app import editing
+from app.dialogs.export import ExportDialog
+from app.dialogs.help import show_about, show_keys
+from app.dialogs.stage import StageDialog
+from app.editing import Clipboard
+from app.files import Files
+from app.playback import Playback
+from app.preview.spans import SpanPreview
+from app.session import Selection, Session
+from app.settings import Settings
+from app.theme import icon, palette, system_theme
+from app.view import LINES, ViewState
+from app.window import Window
+from core.model.edits import clear_anchors, set_stage
+from core.model.inbetweens import PlanCache
+
+ARRANGEMENT_ACTIONS = {"overlaid": "view.overlaid", "side by side": "view.side", "compare": "view.compare"}
+THEME_ACTIONS = {"system": "view.theme_system", "light": "view.theme_light", "dark": "view.theme_dark"}
+METHOD_ACTIONS = {"linear": "span.linear", "intrinsic": "span.intrinsic"}
+
+
+class Editor(QObject):
+    """Everything of one open window."""
+
+    def __init__(self, settings: Settings | None = None) -> None:
+        super().__init__()
+        self.settings = settings or Settings()
+        self.session = Session(self)
+        self.preview = SpanPreview(self)
+        self.view_state = ViewState(self.settings, self)
+        self.playback = Playback(self.session, self)
+        self.clipboard = Clipboard()
+        self.plans = PlanCache()
+        theme = system_theme(self.settings.text("theme", "system"))
+        self.window = Window(self.session, self.preview, self.view_state, self.playback, self.settings, theme)
+        self.files = Files(self.window, self.session, self.settings, self.window.tell)
+        self.export_dialog: ExportDialog | None = None
+        self.window.table.connect_all(self._runs())
+        self._connect()
+        self.set_theme(self.settings.text("theme", "system"))
+        self.window.choose_tool("tool.select")
+        self._refresh()
+        self._make_samples_menu()
+        self._restore_geometry()
+
+    # actions
+
+    def _runs(self):
+        return (
+            self._file_runs()
+            | self._edit_runs()
+            | self._view_runs()
+            | {name: lambda n=name: self.window.choose_tool(n) for name in self.window.tools}
+            | self._key_runs()
+        )
+
+    def _file_runs(self):
+        files, window = self.files, self.window
+        return {
+            "file.new": files.new,
+            "file.open": files.open,
+            "file.save": files.save,
+            "file.save_as": files.save_as,
+            "file.stage": self.edit_stage,
+            "file.export": self.export_frames,
+            "file.close": files.new,
+            "file.quit": self.window.close,
+            "help.keys": lambda: show_keys(
+                self.window, self.window.tools.values(), self.window.table.actions.values()
+            ),
+            "help.about": lambda: show_about(window),
+        }
+
+    def _edit_runs(self):
+        session, clipboard = self.session, self.clipboard
+        return {
+            "edit.undo": session.undo_stack.undo,
+            "edit.redo": session.undo_stack.redo,
+            "edit.cut": lambda: editing.cut(session, clipboard),
+            "edit.copy": lambda: editing.copy(session, clipboard),
+            "edit.paste": lambda: editing.paste(session, clipboard),
+            "edit.delete": lambda: editing.delete(session),
+            "edit.select_all": lambda: editing.select_all(session),
+            "edit.select_none": lambda: session.select(Selection()),
+        }
+
+    def _view_runs(self):
+        canvas, view = self.window.canvas, self.view_state
+        runs = {
+            "view.onion": lambda: view.set(onion=not view.options.onion),
+            "view.lines": self._next_lines,
+            "view.final": lambda: view.set(final=not view.options.final),
+            "view.fit": canvas.fit,
+            "view.zoom_in": lambda: canvas.zoom(1.25),
+            "view.zoom_out": lambda: canvas.zoom(0.8),
+            "view.actual": lambda: canvas.zoom_to(1.0),
+        }
+        runs |= {a: lambda v=value: view.set(arrangement=v) for value, a in ARRANGEMENT_ACTIONS.items()}
+        runs |= {a: lambda v=value: self.set_theme(v) for value, a in THEME_ACTIONS.items()}
+        return runs
+
+    def _key_runs(self):
+        session, playback = self.session, self.playback
+        runs = {
+            "key.add": lambda: editing.add_keyframe(session, self.plans),
+            "key.copy": lambda: editing.copy_to_other_keyframe(session),
+            "key.delete": lambda: editing.delete_current_keyframe(session),
+            "span.clear": self._clear_anchors,
+            "play.toggle": playback.toggle,
+            "play.loop": lambda: playback.set_loop(not playback.loop),
+            "play.previous": lambda: self._step(-1),
+            "play.next": lambda: self._step(1),
+            "play.previous_key": lambda: editing.go_to_keyframe(session, -1),
+            "play.next_key": lambda: editing.go_to_keyframe(session, 1),
+            "play.first": lambda: session.go_to(1),
+            "play.last": lambda: session.go_to(session.document.length),
+        }
+        runs |= {a: lambda m=method: editing.set_method(session, m) for method, a in METHOD_ACTIONS.items()}
+        return runs
+
+    def _step(self, step: int) -> None:
+        self.playback.stop()
+        self.session.go_to(self.session.frame + step)
+
+    def _next_lines(self) -> None:
+        now = LINES.index(self.view_state.options.lines)
+        self.view_state.set(lines=LINES[(now + 1) % len(LINES)])
+
+    def _clear_anchors(self) -> None:
+        before, after = self.session.span_keyframes()
+        if before is not None and after is not None:
+            self.session.apply("Clear Anchors", clear_anchors, self.session.layer.id, before.frame)
+
+    # connections
+
+    def _connect(self) -> None:
+        session, window = self.session, self.window
+        session.problem.connect(lambda text: window.tell(text, "error"))
+        for signal_ in (session.documentChanged, session.frameChanged, session.layerChanged):
+            signal_.connect(self._refresh)
+        for signal_ in (session.selectionChanged, session.gestureChanged, self.view_state.changed):
+            signal_.connect(self._refresh)
+        session.fileChanged.connect(window.show_title)
+        session.fileChanged.connect(self._on_file_changed)
+        session.undo_stack.indexChanged.connect(self._refresh)
+        self.playback.changed.connect(self._refresh)
+        window.canvas.playPressed.connect(self.playback.toggle)
+        window.timeline.track.menuWanted.connect(self._show_key_menu)
+        window.closeAsked.connect(self._on_close_asked)
+        window.fileDropped.connect(lambda name: self.files.open_path(Path(name)))
+        window.menus["File"].aboutToShow.connect(self._fill_recent)
+        hints = QGuiApplication.styleHints()
+        hints.colorSchemeChanged.connect(self._on_color_scheme)
+        window.show_title()
+
+    def _refresh(self, *_: object) -> None:
+        """Show in menus and buttons what can be done now."""
+        table, session, options = self.window.table, self.session, self.view_state.options
+        stack = session.undo_stack
+        free = not session.in_gesture
+        table["edit.undo"].setEnabled(free and stack.canUndo())
+        table["edit.redo"].setEnabled(free and stack.canRedo())
+        table["edit.undo"].setText(f"Undo {stack.undoText()}".rstrip())
+        table["edit.redo"].setText(f"Redo {stack.redoText()}".rstrip())
+        before, after = session.span_keyframes()
+        there = before is not None and after is not None
+        for name in (*METHOD_ACTIONS.values(), "span.clear", "view.compare"):
+            table[name].setEnabled(there)
+        if before is not None and there:
+            table[METHOD_ACTIONS[before.span.method]].setChecked(True)
+        table["key.delete"].setEnabled(session.layer.keyframe_at(session.frame) is not None)
+        table["view.onion"].setChecked(options.onion)
+        table["view.final"].setChecked(options.final)
+        table[ARRANGEMENT_ACTIONS[options.arrangement]].setChecked(True)
+        self._show_playing()
+
+    def _show_playing(self) -> None:
+        table, playing = self.window.table, self.playback.playing
+        text = "Pause" if playing else "Play"
+        if table["play.toggle"].text() != text:
+            table["play.toggle"].setText(text)
+            table["play.toggle"].setToolTip(f"{text} (Space)")
+            table["play.toggle"].setIcon(icon(text.lower(), self.window.theme))
+        table["play.loop"].setChecked(self.playback.loop)
+
+    def _on_file_changed(self) -> None:
+        if self.session.undo_stack.count() == 0:
+            self.playback.stop()
+
+    def _on_color_scheme(self) -> None:
+        if self.settings.text("theme", "system") == "system":
+            self.set_theme("system")
+
+    def set_theme(self, choice: str) -> None:
+        """Use the theme "system", "light" or "dark" from now on."""
+        self.settings.keep("theme", choice)
+        self.window.table[THEME_ACTIONS.get(choice, "view.theme_system")].setChecked(True)
+        theme = system_theme(choice)
+        app = QApplication.instance()
+        if isinstance(app, QApplication):
+            app.setPalette(palette(theme))
+        self.window.set_theme(theme)
+        self._refresh()
+
+    # menus
+
+    def _make_samples_menu(self) -> None:
+        for path in resources.samples():
+            action = self.window.menus["Samples"].addAction(path.stem.capitalize())
+            action.triggered.connect(lambda _=False, p=path: self.files.open_sample(p))
+
+    def _fill_recent(self) -> None:
+        menu = self.window.recent_menu
+        menu.clear()
+        recent = self.settings.recent_files()
+        for path in recent:
+            action = menu.addAction(path.name)
+            action.setToolTip(str(path))
+            action.triggered.connect(lambda _=False, p=path: self.files.open_path(p))
+        menu.setEnabled(bool(recent))
+        if recent:
+            menu.addSeparator()
+            menu.addAction("Forget These").triggered.connect(self.settings.clear_recent)
+
+    def _show_key_menu(self, frame: int, place: object) -> None:
+        menu = QMenu(self.window)
+        for name in ("key.add", "key.copy", "key.delete"):
+            menu.addAction(self.window.table[name])
+        menu.addSeparator()
+        for name in ("edit.copy", "edit.paste"):
+            menu.addAction(self.window.table[name])
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        menu.popup(place)
+
+    # dialogs
+
+    def edit_stage(self) -> None:
+        dialog = StageDialog(self.session.document.stage, self.window.theme, self.window)
+        if dialog.exec():
+            self.session.apply("Change Stage", set_stage, dialog.stage)
+
+    def export_frames(self) -> None:
+        """Open the export dialog, or bring the one at work to the front."""
+        if self.export_dialog is not None and self.export_dialog.job is not None:
+            self.export_dialog.raise_()
+            return
+        folder = self.session.path.parent if self.session.path else Path.home()
+        name = self.session.name
+        dialog = ExportDialog(self.session.document, name, folder / f"{name} frames", self.window)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.told.connect(self.window.tell)
+        dialog.destroyed.connect(self._forget_dialog)
+        self.export_dialog = dialog
+        dialog.show()
+
+    def _forget_dialog(self) -> None:
+        self.export_dialog = None
+
+    # opening and closing
+
+    def _restore_geometry(self) -> None:
+        geometry = self.settings.blob("window/geometry")
+        if geometry is not None:
+            self.window.restoreGeometry(geometry)
+
+    def _on_close_asked(self, event: QCloseEvent) -> None:
+        if not self.files.may_leave():
+            event.ignore()
+            return
+        if self.export_dialog is not None:
+            self.export_dialog.close()
+        self.playback.stop()
+        self.preview.stop()
+        self.settings.keep("window/geometry", self.window.saveGeometry())
+        event.accept()
+
+
+class _FileOpener(QObject):
+    """Opens the files that the desktop hands to a running program (macOS)."""
+
+    def __init__(self, editor: Editor) -> None:
+        super().__init__(editor)
+        self._editor = editor
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if event.type() == QEvent.Type.FileOpen:
+            self._editor.files.open_path(Path(event.file()))
+            return True
+        return False
+
+
+def make_application() -> QApplication:
+    """Return the application, made if there is none yet."""
+    app = QApplication.instance()
+    if isinstance(app, QApplication):
+        return app
+    app = QApplication(sys.argv[:1])
+    app.setApplicationName("Inkbetween")
+    app.setOrganizationName("Inkbetween")
+    app.setStyle("Fusion")
+    app.setWindowIcon(QIcon(str(resources.icon("app"))))
+    return app
+
+
+def run(path: str | None = None, *, sample: bool = False) -> int:
+    """Open the editor on a file, or on an empty document, and return its exit code when it is closed."""
+    app = make_application()
+    editor = Editor()
+    if path is not None:
+        opened = editor.files.open_sample(Path(path)) if sample else editor.files.open_path(Path(path))
+        if sample and opened:
+            editor.session.go_to(max(1, editor.session.document.length // 2))
+    editor.window.show()
+    signal.signal(signal.SIGINT, lambda *_: editor.window.close())
+    beat = QTimer()  # Python sees Ctrl+C only when it runs now and then
+    beat.start(200)
+    beat.timeout.connect(lambda: None)
+    return app.exec()

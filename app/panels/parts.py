@@ -1,0 +1,130 @@
+"""Small widgets that several panels are made of."""
+
+from collections.abc import Callable, Sequence
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QColor, QIcon, QPainter, QPixmap
+from PySide6.QtWidgets import (
+    QButtonGroup,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QSizePolicy,
+    QSpinBox,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+
+class Segments(QWidget):
+    """A few choices beside each other, one of them on; `chosen` only when a person chooses."""
+
+    chosen = Signal(str)
+
+    def __init__(self, choices: Sequence[tuple[str, str, str]], parent: QWidget | None = None) -> None:
+        """`choices` are (value, text, tooltip)."""
+        super().__init__(parent)
+        self.setObjectName("segments")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(1, 1, 1, 1)
+        row.setSpacing(1)
+        self._group = QButtonGroup(self)
+        self._buttons: dict[str, QToolButton] = {}
+        for value, text, tip in choices:
+            button = QToolButton()
+            button.setText(text)
+            button.setToolTip(tip)
+            button.setAccessibleName(text)
+            button.setCheckable(True)
+            button.setProperty("segment", True)
+            button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+            button.clicked.connect(lambda _=False, v=value: self.chosen.emit(v))
+            self._group.addButton(button)
+            self._buttons[value] = button
+            row.addWidget(button)
+
+    def set_value(self, value: str) -> None:
+        """Show a choice, without telling anyone."""
+        if value in self._buttons:
+            self._buttons[value].setChecked(True)
+
+    def button(self, value: str) -> QToolButton:
+        return self._buttons[value]
+
+
+class Section(QWidget):
+    """A titled part of the side panel."""
+
+    def __init__(self, title: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.box = QVBoxLayout(self)
+        self.box.setContentsMargins(16, 12, 16, 4)
+        self.box.setSpacing(8)
+        head = QHBoxLayout()
+        self.title = label(title.upper(), "title")
+        self.note = label("", "muted")
+        head.addWidget(self.title)
+        head.addStretch(1)
+        head.addWidget(self.note)
+        self.box.addLayout(head)
+
+    def add_row(self, name: str, *widgets: QWidget) -> QLabel:
+        """Add a labelled row and return its label."""
+        row = QHBoxLayout()
+        row.setSpacing(8)
+        text = label(name, "muted")
+        text.setMinimumWidth(64)
+        row.addWidget(text)
+        for widget in widgets:
+            row.addWidget(widget)
+        row.addStretch(1)
+        self.box.addLayout(row)
+        return text
+
+
+def label(text: str, role: str = "") -> QLabel:
+    made = QLabel(text)
+    if role:
+        made.setProperty("role", role)
+    return made
+
+
+def separator(*, vertical: bool = False) -> QFrame:
+    line = QFrame()
+    line.setObjectName("separator")
+    if vertical:
+        line.setFixedWidth(1)
+    else:
+        line.setFixedHeight(1)
+    return line
+
+
+def number_field(low: int, high: int, tip: str, changed: Callable[[int], None], width: int = 56) -> QSpinBox:
+    """Return a field for a whole number that tells every step, but typed digits only at the end."""
+    field = QSpinBox()
+    field.setRange(low, high)
+    field.setKeyboardTracking(False)
+    field.setToolTip(tip)
+    field.setFixedWidth(width)
+    field.setAlignment(Qt.AlignmentFlag.AlignRight)
+    field.valueChanged.connect(changed)
+    return field
+
+
+def swatch_icon(color: QColor | None, line: QColor, size: int = 18) -> QIcon:
+    """Return a small square of a colour, or a crossed one for none."""
+    picture = QPixmap(QSize(size * 2, size * 2))
+    picture.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(picture)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.scale(2, 2)
+    painter.setPen(line)
+    painter.setBrush(color if color is not None else Qt.BrushStyle.NoBrush)
+    painter.drawRoundedRect(1, 1, size - 2, size - 2, 4, 4)
+    if color is None:
+        painter.drawLine(4, size - 4, size - 4, 4)
+    painter.end()
+    picture.setDevicePixelRatio(2)
+    return QIcon(picture)

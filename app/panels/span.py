@@ -1,0 +1,140 @@
+"""The span panel: how vertices travel between the two keyframes around the playhead."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QHBoxLayout, QPushButton, QWidget
+
+from app.panels.parts import Section, Segments, label, number_field
+from app.session import Session
+from app.view import ViewState
+from core.model.document import MOST_TURNS
+from core.model.edits import clear_anchors, set_span
+
+METHODS = (
+    ("linear", "linear", "Every vertex goes straight: fast and plain; what turns gets smaller on the way"),
+    ("intrinsic", "intrinsic", "Edge lengths and angles change evenly: limbs bend and keep their size"),
+)
+LINES = (
+    ("all", "all", "Draw the lines of the whole correspondence"),
+    ("anchors", "anchors", "Draw only the pairs that you fixed"),
+    ("none", "none", "Draw no lines"),
+)
+
+
+class SpanPanel(QWidget):
+    """Method, extra turns and the correspondence of the span under the playhead."""
+
+    def __init__(
+        self, session: Session, view: ViewState, actions: dict[str, QAction], parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self.session, self.view_state = session, view
+        self._method_section()
+        self._correspondence_section(actions)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setDirection(QHBoxLayout.Direction.TopToBottom)
+        row.addWidget(self.span_section)
+        row.addWidget(self.correspondence_section)
+        for signal in (session.documentChanged, session.frameChanged, session.layerChanged, view.changed):
+            signal.connect(self._refresh)
+        self._refresh()
+
+    def _method_section(self) -> None:
+        self.span_section = Section("Span")
+        self.methods = Segments(METHODS)
+        self.methods.chosen.connect(self._on_method)
+        self.span_section.box.addWidget(self.methods)
+        self.about = label("", "muted")
+        self.about.setWordWrap(True)
+        self.span_section.box.addWidget(self.about)
+        self.turns = number_field(
+            -MOST_TURNS,
+            MOST_TURNS,
+            "Extra whole turns on the way, clockwise; intrinsic only",
+            self._on_turns,
+        )
+        self.compare = QPushButton("Compare")
+        self.compare.setCheckable(True)
+        self.compare.setToolTip("Show linear and intrinsic beside each other, at t = 0, 0.2 ... 1")
+        self.compare.clicked.connect(lambda on: self.view_state.set(arrangement="compare" if on else "overlaid"))
+        self.span_section.add_row("extra turns", self.turns, self.compare)
+
+    def _correspondence_section(self, actions: dict[str, QAction]) -> None:
+        self.correspondence_section = Section("Correspondence")
+        self.lines = Segments(LINES)
+        self.lines.chosen.connect(lambda value: self.view_state.set(lines=value))
+        self.correspondence_section.box.addWidget(self.lines)
+        row = QHBoxLayout()
+        self.add = _flat_button("Add anchors (C)", "Take the correspond tool: drag from outline to outline")
+        self.add.clicked.connect(actions["tool.correspond"].trigger)
+        self.clear = _flat_button("Clear anchors", "Forget every pair that you fixed in this span")
+        self.clear.clicked.connect(self._on_clear)
+        row.addWidget(self.add)
+        row.addStretch(1)
+        row.addWidget(self.clear)
+        self.correspondence_section.box.addLayout(row)
+
+    def _refresh(self, *_: object) -> None:
+        before, after = self.session.span_keyframes()
+        there = before is not None and after is not None
+        for widget in (self.methods, self.turns, self.compare, self.add):
+            widget.setEnabled(there)
+        self.lines.set_value(self.view_state.options.lines)
+        self.compare.setChecked(self.view_state.options.arrangement == "compare")
+        if not there or before is None or after is None:
+            self.span_section.title.setText("SPAN")
+            self.about.setText(self._advice())
+            self.correspondence_section.note.setText("")
+            self.clear.setEnabled(False)
+            return
+        span = before.span
+        self.span_section.title.setText(f"SPAN {before.frame} TO {after.frame}")
+        self.methods.set_value(span.method)
+        self.about.setText(next(tip for value, _, tip in METHODS if value == span.method))
+        if self.turns.value() != span.turns:
+            self.turns.setValue(span.turns)
+        self.turns.setEnabled(span.method != "linear")
+        count = sum(len(p.anchors) for p in span.pairs)
+        self.correspondence_section.note.setText(
+            f"{count} anchor{'' if count == 1 else 's'}" if count else "automatic"
+        )
+        self.clear.setEnabled(bool(span.pairs))
+
+    def _advice(self) -> str:
+        count = len(self.session.layer.keyframes)
+        if count == 0:
+            return "Draw the first keyframe: pen (P) or pencil (B)."
+        if count == 1:
+            return "One keyframe so far. Go to another frame and draw the second one, or press F6 for a copy."
+        return "The playhead stands outside the keyframes."
+
+    def _frame(self) -> int | None:
+        before, after = self.session.span_keyframes()
+        return before.frame if before is not None and after is not None else None
+
+    def _on_method(self, method: str) -> None:
+        frame = self._frame()
+        if frame is not None:
+            self.session.apply("Change Method", set_span, self.session.layer.id, frame, method=method)
+
+    def _on_turns(self, turns: int) -> None:
+        frame = self._frame()
+        if frame is not None:
+            self.session.apply(
+                "Change Turns", set_span, self.session.layer.id, frame, turns=turns, merge_key=("turns", frame)
+            )
+
+    def _on_clear(self) -> None:
+        frame = self._frame()
+        if frame is not None:
+            self.session.apply("Clear Anchors", clear_anchors, self.session.layer.id, frame)
+
+
+def _flat_button(text: str, tip: str) -> QPushButton:
+    button = QPushButton(text)
+    button.setProperty("flat", True)
+    button.setFlat(True)
+    button.setToolTip(tip)
+    button.setCursor(Qt.CursorShape.PointingHandCursor)
+    return button

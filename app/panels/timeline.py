@@ -1,0 +1,166 @@
+"""The timeline: transport, frame and rate fields, onion skin, and the track below."""
+
+from fractions import Fraction
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QSlider, QToolButton, QVBoxLayout, QWidget
+
+from app.panels.parts import label, number_field, separator
+from app.panels.track import Track
+from app.playback import Playback
+from app.session import Session
+from app.theme import Theme
+from app.view import ViewState
+from core.errors import InkbetweenError
+from core.model.document import LONGEST, as_rate, ratio_in_span
+from core.model.edits import set_length, set_rate
+
+
+class Timeline(QWidget):
+    """See the module. `actions` gives the buttons their QActions by id."""
+
+    def __init__(
+        self,
+        session: Session,
+        view: ViewState,
+        playback: Playback,
+        theme: Theme,
+        actions: dict[str, QAction],
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self.setObjectName("timeline")
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.session, self.view_state, self.playback, self.theme = session, view, playback, theme
+        self.track = Track(session, theme)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.setSpacing(0)
+        box.addWidget(self._bar(actions))
+        box.addWidget(separator())
+        box.addWidget(self.track, 1)
+        session.documentChanged.connect(self._refresh)
+        session.frameChanged.connect(self._refresh)
+        session.layerChanged.connect(self._refresh)
+        view.changed.connect(self._refresh)
+        self._refresh()
+
+    def _bar(self, actions: dict[str, QAction]) -> QWidget:
+        bar = QWidget()
+        bar.setFixedHeight(48)
+        row = QHBoxLayout(bar)
+        row.setContentsMargins(12, 8, 16, 8)
+        row.setSpacing(4)
+        for name in ("play.first", "play.previous", "play.toggle", "play.next", "play.last", "play.loop"):
+            row.addWidget(action_button(actions[name]))
+        row.addSpacing(10)
+        self.t_label = label("", "strong")
+        self.t_label.setMinimumWidth(52)
+        self.t_label.setToolTip("Eased time in the span, 0 at the keyframe before and 1 at the one after")
+        row.addWidget(self.t_label)
+        self._add_frame_fields(row)
+        row.addStretch(1)
+        self._add_onion_fields(row, actions["view.onion"])
+        return bar
+
+    def _add_frame_fields(self, row: QHBoxLayout) -> None:
+        row.addWidget(label("frame", "muted"))
+        self.frame_field = number_field(1, LONGEST, "The frame that is shown", self.session.go_to)
+        row.addWidget(self.frame_field)
+        row.addWidget(label("/", "muted"))
+        self.length_field = number_field(1, LONGEST, "Number of frames of the film", self._on_length)
+        row.addWidget(self.length_field)
+        row.addSpacing(6)
+        self.rate_field = QLineEdit()
+        self.rate_field.setFixedWidth(64)
+        self.rate_field.setAlignment(Qt.AlignmentFlag.AlignRight)
+        self.rate_field.setToolTip("Frames a second: 24, 29.97 or 30000/1001")
+        self.rate_field.editingFinished.connect(self._on_rate)
+        row.addWidget(self.rate_field)
+        row.addWidget(label("fps", "muted"))
+
+    def _add_onion_fields(self, row: QHBoxLayout, toggle: QAction) -> None:
+        row.addWidget(action_button(toggle))
+        self.onion_before = number_field(
+            0, 12, "Onion skin: frames before, red", lambda n: self.view_state.set(onion_before=n), 40
+        )
+        self.onion_after = number_field(
+            0, 12, "Onion skin: frames after, green", lambda n: self.view_state.set(onion_after=n), 40
+        )
+        self.onion_strength = QSlider(Qt.Orientation.Horizontal)
+        self.onion_strength.setRange(5, 100)
+        self.onion_strength.setFixedWidth(80)
+        self.onion_strength.setToolTip("Onion skin: strength")
+        self.onion_strength.valueChanged.connect(lambda n: self.view_state.set(onion_strength=n / 100))
+        for widget in (
+            self.onion_before,
+            label("before", "muted"),
+            self.onion_after,
+            label("after", "muted"),
+            self.onion_strength,
+        ):
+            row.addWidget(widget)
+
+    def set_theme(self, theme: Theme) -> None:
+        self.theme = theme
+        self.track.set_theme(theme)
+
+    def _refresh(self, *_: object) -> None:
+        document = self.session.document
+        self.frame_field.setMaximum(document.length)
+        _show(self.frame_field, self.session.frame)
+        _show(self.length_field, document.length)
+        if not self.rate_field.hasFocus():
+            self.rate_field.setText(rate_text(document.rate))
+        self.t_label.setText(self._t_text())
+        options = self.view_state.options
+        _show(self.onion_before, options.onion_before)
+        _show(self.onion_after, options.onion_after)
+        _show(self.onion_strength, round(100 * options.onion_strength))
+        for widget in (self.onion_before, self.onion_after, self.onion_strength):
+            widget.setEnabled(options.onion)
+
+    def _t_text(self) -> str:
+        before, after = self.session.span_keyframes()
+        if before is None or after is None:
+            return "t –"
+        t = before.span.easing.t_at(ratio_in_span(before, after, self.session.frame))
+        return f"t {float(t):.2f}"
+
+    def _on_length(self, length: int) -> None:
+        self.session.apply("Change Length", set_length, length, merge_key="length")
+
+    def _on_rate(self) -> None:
+        try:
+            rate = as_rate(self.rate_field.text())
+        except InkbetweenError as e:
+            self.session.problem.emit(str(e))
+        else:
+            self.session.apply("Change Frame Rate", set_rate, rate)
+        self.rate_field.setText(rate_text(self.session.document.rate))
+
+
+def _show(widget, value: int) -> None:
+    """Show a value that is not a person's change; the slot it triggers finds nothing to do."""
+    if widget.value() != value:
+        widget.setValue(value)
+
+
+def rate_text(rate: Fraction) -> str:
+    """Return a rate as people write it: 24, 23.976, else the fraction."""
+    if rate.denominator == 1:
+        return str(rate.numerator)
+    short = f"{float(rate):.3f}".rstrip("0")
+    return short if Fraction(short) == rate else f"{rate.numerator}/{rate.denominator}"
+
+
+def action_button(action: QAction) -> QToolButton:
+    """Return a flat icon button for an action; its tooltip names the shortcut."""
+    button = QToolButton()
+    button.setDefaultAction(action)
+    button.setIconSize(QSize(20, 20))
+    button.setFixedSize(32, 32)
+    button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+    button.setAccessibleName(action.text().replace("&", ""))
+    return button

@@ -1,0 +1,232 @@
+"""The main window: lays the parts out and joins them; what they do is elsewhere."""
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QMainWindow,
+    QScrollArea,
+    QSplitter,
+    QStackedLayout,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.actions import ACTIONS, MENUS, ActionTable
+from app.canvas.canvas import Canvas
+from app.panels.drawing import DrawingPanel
+from app.panels.easing import EasingPanel
+from app.panels.messagebar import MessageBar
+from app.panels.parts import separator
+from app.panels.span import SpanPanel
+from app.panels.timeline import Timeline, action_button
+from app.playback import Playback
+from app.preview.spans import SpanPreview
+from app.session import Session
+from app.settings import Settings
+from app.theme import Theme, style_sheet
+from app.tools.correspond import CorrespondTool
+from app.tools.pen import PenTool
+from app.tools.pencil import PencilTool
+from app.tools.select import SelectTool
+from app.view import ViewState
+
+SIDE_WIDTH = 300
+TOOLBOX_WIDTH = 52
+
+
+class Window(QMainWindow):
+    """See the module. `closeAsked` is answered by whoever knows about unsaved changes."""
+
+    closeAsked = Signal(QCloseEvent)
+    fileDropped = Signal(str)
+
+    def __init__(
+        self,
+        session: Session,
+        preview: SpanPreview,
+        view: ViewState,
+        playback: Playback,
+        settings: Settings,
+        theme: Theme,
+    ) -> None:
+        super().__init__()
+        self.session, self.view_state, self.settings, self.theme = session, view, settings, theme
+        self.table = ActionTable(theme, self)
+        self.canvas = Canvas(session, preview, view, theme)
+        self.tools = {
+            "tool.select": SelectTool(self.canvas),
+            "tool.pen": PenTool(self.canvas),
+            "tool.pencil": PencilTool(self.canvas),
+            "tool.correspond": CorrespondTool(self.canvas),
+        }
+        self.timeline = Timeline(session, view, playback, theme, self.table.actions)
+        self.span_panel = SpanPanel(session, view, self.table.actions)
+        self.easing_panel = EasingPanel(session, theme)
+        self.drawing_panel = DrawingPanel(session, theme, *self._tolerance())
+        self.setCentralWidget(self._central())
+        self.message_bar = MessageBar(self.canvas, theme)
+        self._make_status_bar()
+        self._make_menus()
+        self.setAcceptDrops(True)
+        self.resize(1440, 900)
+        self.setMinimumSize(900, 560)
+
+    # laying out
+
+    def _central(self) -> QWidget:
+        central = QWidget()
+        central.setObjectName("backdrop")
+        row = QHBoxLayout(central)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(0)
+        self.split = QSplitter(Qt.Orientation.Vertical)
+        self.split.setHandleWidth(1)
+        self.split.setChildrenCollapsible(False)
+        self.split.addWidget(self.canvas)
+        self.split.addWidget(self.timeline)
+        self.split.setStretchFactor(0, 1)
+        self.split.setSizes([660, 190])
+        row.addWidget(self._toolbox())
+        row.addWidget(self.split, 1)
+        row.addWidget(self._side())
+        return central
+
+    def _toolbox(self) -> QWidget:
+        box = QWidget()
+        box.setObjectName("toolbox")
+        box.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        box.setFixedWidth(TOOLBOX_WIDTH)
+        column = QVBoxLayout(box)
+        column.setContentsMargins(8, 12, 8, 12)
+        column.setSpacing(8)
+        for name in self.tools:
+            button = action_button(self.table[name])
+            button.setFixedSize(36, 36)
+            button.setIconSize(QSize(22, 22))
+            column.addWidget(button)
+        column.addStretch(1)
+        for name in ("view.fit", "edit.undo", "edit.redo"):
+            button = action_button(self.table[name])
+            button.setFixedSize(36, 36)
+            column.addWidget(button)
+        return box
+
+    def _side(self) -> QWidget:
+        side = QWidget()
+        side.setObjectName("side")
+        side.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        side.setFixedWidth(SIDE_WIDTH)
+        outer = QStackedLayout(side)
+        outer.setContentsMargins(1, 0, 0, 0)
+        inner = QWidget()
+        column = QVBoxLayout(inner)
+        column.setContentsMargins(0, 4, 0, 12)
+        column.setSpacing(4)
+        for panel in (self.span_panel, self.easing_panel, self.drawing_panel):
+            column.addWidget(panel)
+            column.addWidget(separator())
+        column.addStretch(1)
+        scroll = QScrollArea()
+        scroll.setWidgetResizable(True)
+        scroll.setFrameShape(QFrame.Shape.NoFrame)
+        scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        scroll.setWidget(inner)
+        outer.addWidget(scroll)
+        return side
+
+    def _make_status_bar(self) -> None:
+        bar = self.statusBar()
+        bar.setSizeGripEnabled(False)
+        self.hint_label = QLabel()
+        self.place_label = QLabel()
+        self.place_label.setMinimumWidth(90)
+        self.zoom_label = QLabel()
+        self.state_label = QLabel()
+        bar.addWidget(self.hint_label, 1)
+        for widget in (self.state_label, self.place_label, self.zoom_label):
+            bar.addPermanentWidget(widget)
+        self.canvas.pointed.connect(self.place_label.setText)
+        self.canvas.zoomed.connect(lambda scale: self.zoom_label.setText(f"{100 * scale:.0f} %"))
+
+    def _make_menus(self) -> None:
+        self.menus = {name: self.menuBar().addMenu(f"&{name}") for name in MENUS}
+        self.recent_menu = None
+        for spec in ACTIONS:
+            if not spec.menu:
+                continue
+            menu = self.menus[spec.menu]
+            if not spec.id:
+                menu.addSeparator()
+            elif spec.id == "file.recent":
+                self.recent_menu = menu.addMenu(spec.text)
+            else:
+                menu.addAction(self.table[spec.id])
+        corner = QWidget(self.menuBar())
+        row = QHBoxLayout(corner)
+        row.setContentsMargins(0, 2, 10, 2)
+        row.setSpacing(4)
+        for name in ("view.overlaid", "view.side", "view.compare", "view.final"):
+            button = action_button(self.table[name])
+            button.setFixedSize(30, 28)
+            row.addWidget(button)
+        self.menuBar().setCornerWidget(corner)
+
+    def _tolerance(self):
+        """The pencil's tolerance now, and what keeps another one."""
+        pencil = self.tools["tool.pencil"]
+        pencil.tolerance = self.settings.number("pencil/tolerance", pencil.tolerance, 0, 50)
+
+        def changed(value: float) -> None:
+            pencil.tolerance = value
+            self.settings.keep("pencil/tolerance", value)
+
+        return pencil.tolerance, changed
+
+    # showing
+
+    def choose_tool(self, name: str) -> None:
+        """Make a tool the active one."""
+        tool = self.tools[name]
+        self.table[name].setChecked(True)
+        if tool is not self.canvas.tool:
+            self.canvas.set_tool(tool)
+        self.hint_label.setText(tool.hint)
+        self.canvas.setFocus()
+
+    def tell(self, text: str, kind: str = "error") -> None:
+        """Show one sentence over the canvas."""
+        self.message_bar.show_message(text, kind)
+
+    def show_title(self) -> None:
+        """Name the file and mark unsaved changes in the title and the status bar."""
+        self.setWindowTitle(f"{self.session.name}[*] – Inkbetween")
+        self.setWindowModified(self.session.is_modified)
+        if self.session.path is not None:
+            self.setWindowFilePath(str(self.session.path))
+        saved = "saved" if self.session.path is not None else ""
+        self.state_label.setText("unsaved changes" if self.session.is_modified else saved)
+
+    def set_theme(self, theme: Theme) -> None:
+        """Repaint everything in another theme."""
+        self.theme = theme
+        self.setStyleSheet(style_sheet(theme))
+        self.table.set_theme(theme)
+        for part in (self.canvas, self.timeline, self.easing_panel, self.drawing_panel, self.message_bar):
+            part.set_theme(theme)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        self.closeAsked.emit(event)
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        if any(url.isLocalFile() for url in event.mimeData().urls()):
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        for url in event.mimeData().urls():
+            if url.isLocalFile():
+                event.acceptProposedAction()
+                self.fileDropped.emit(url.toLocalFile())
+                return
