@@ -102,7 +102,7 @@ def test_an_icon_is_lines_in_the_colour_of_the_theme(name):
     assert root.get("viewBox") == "0 0 24 24"
     assert root.get("stroke") == "currentColor"
     assert root.get("fill") == "none"
-    assert root.get("stroke-width") == "1.75"
+    assert float(root.get("stroke-width")) >= 1.75  # wider only where it is shown smaller
     assert {child.tag.removeprefix("{http://www.w3.org/2000/svg}") for child in root} <= SHAPES
     assert not re.search("fill=|stroke=", "".join(ElementTree.tostring(c, "unicode") for c in root))
 

@@ -150,8 +150,9 @@ def test_a_kept_correspondence_is_used_as_it_is():
 def test_correspondences_solved_before_serve_drawings_whose_vertices_moved():
     a, b = drawing(SQUARE), drawing(PENTAGON)
     matched = match_span(a, b, Span())
-    plan = plan_span(drawing(SQUARE + (9, 4)), b, Span(), matched)
-    assert {tuple(p) for p in SQUARE + (9, 4)} <= {tuple(p) for p in plan.picture(0.0).outlines[0][0]}
+    moved = SQUARE + [[9, 4]]
+    plan = plan_span(drawing(moved), b, Span(), matched)
+    assert {tuple(p) for p in moved} <= {tuple(p) for p in plan.picture(0.0).outlines[0][0]}
     with pytest.raises(CorrespondenceError, match="4 and 5 vertices; before has 5"):
         plan_span(drawing(PENTAGON), b, Span(), matched)
 
@@ -225,6 +226,6 @@ def test_hidden_layers_are_not_shown_and_the_back_comes_first():
         Layer(4),
     )
     shown = pictures_at(Document(layers=layers), 5, PlanCache())
-    assert [p.outlines[0][0] is k.keyframes[0].drawing.outlines[0].points for p, k in zip(shown, (layer, other))]
     assert len(shown) == 2
+    assert (shown[0].outlines[0][0] == SQUARE).all()
     assert (shown[1].outlines[0][0] == PENTAGON).all()
