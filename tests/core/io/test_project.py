@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from core.correspondence.pairing import Correspondence
 from core.errors import DocumentError, FileFormatError, InkbetweenError, StorageError
 from core.io.project import LARGEST_FILE, decode, encode, load, save
+from core.methods.plan import METHODS
 from core.model.document import Anchor, Document, Keyframe, Layer, OutlinePair, Span, Stage
 from core.model.drawing import Drawing, Outline, Style
 from core.model.easing import Easing
@@ -429,3 +430,18 @@ def test_a_damaged_file_is_named(project):
     project.write_bytes(b"{}")
     with pytest.raises(FileFormatError, match=r"cannot open film.inkb: it is no Inkbetween project"):
         load(project)
+
+
+def test_the_smallest_file_of_the_documentation_opens():
+    text = (Path(__file__).resolve().parents[3] / "docs" / "file-format.md").read_text(encoding="utf-8")
+    smallest = text.partition("```json\n")[2].partition("```")[0]
+    assert decode(smallest.encode()) == Document()
+
+
+def test_every_field_and_method_is_documented():
+    text = (Path(__file__).resolve().parents[3] / "docs" / "file-format.md").read_text(encoding="utf-8")
+    for path in PLACES:
+        if isinstance(path[-1], str):
+            assert f"`{path[-1]}`" in text, path
+    for method in METHODS:
+        assert f'`"{method}"`' in text

@@ -150,7 +150,7 @@ def test_a_kept_correspondence_is_used_as_it_is():
 def test_correspondences_solved_before_serve_drawings_whose_vertices_moved():
     a, b = drawing(SQUARE), drawing(PENTAGON)
     matched = match_span(a, b, Span())
-    moved = SQUARE + [[9, 4]]
+    moved = SQUARE + np.array([9.0, 4.0])
     plan = plan_span(drawing(moved), b, Span(), matched)
     assert {tuple(p) for p in moved} <= {tuple(p) for p in plan.picture(0.0).outlines[0][0]}
     with pytest.raises(CorrespondenceError, match="4 and 5 vertices; before has 5"):
