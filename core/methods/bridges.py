@@ -4,12 +4,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
 from core.geometry.outline import FloatArray
-from core.methods.headings import ComplexArray, Headings
+from core.methods.headings import ComplexArray, Headings, unit
 
-PROBES = 24
+PROBES = 12
 """Points of an outline that stand for it where neighbours are sought."""
 
 REACH = 1e-3
@@ -24,40 +23,36 @@ class Bridge:
 
     Attributes
     ----------
-    carried : slice
-        Rows of the drawing: the outline that is moved.
-    edges, ends : (m,) int array
-        Rows between which the edges run; the vectors begin at their middles.
-    weights : (m,) float array
-        Sum 1; large for near edges.
-    before, after : (m,) complex array
-        The vectors in the keyframes, the ones after turned back, px.
+    carried, carrier : slice
+        Rows of the drawing: the outline that is moved, and the one whose edges do it.
+    start, middle : (k,) complex array
+        Weights of the carrier's and of the carried vertices, sum 1. They make the mean of the points where the
+        vectors begin, and the one to which they lead.
+    arms : (m, 2) complex array
+        The vectors before, and what they gain in length; weighted, so that they need only be added; px.
     turn : (m,) float array
-        Turn of the edges, radians.
-    middle : (k,) float array
-        Weights of the carried vertices, sum 1; they make its middle.
+        Turn of their edges, radians.
+    mean_turn : float
+        Weighted mean of these.
     """
 
     carried: slice
-    edges: npt.NDArray[np.intp]
-    ends: npt.NDArray[np.intp]
-    weights: FloatArray
-    before: ComplexArray
-    after: ComplexArray
+    carrier: slice
+    start: ComplexArray
+    middle: ComplexArray
+    arms: ComplexArray
     turn: FloatArray
-    middle: FloatArray
+    mean_turn: float
 
     def turned(self, radians: float) -> "Bridge":
         """Return the same vectors with `radians`, a number of whole turns, added to every turn."""
-        return replace(self, turn=self.turn + radians)
+        return replace(self, turn=self.turn + radians, mean_turn=self.mean_turn + radians)
 
     def shift(self, frames: ComplexArray, t: FloatArray) -> ComplexArray:
         """How far (T,) the carried outline must move to its place in `frames` (T, n), where the carrier lies."""
-        s = t[:, None]
-        arms = np.exp(1j * s * self.turn) * (self.before + s * (self.after - self.before))
-        start = (frames[:, self.edges] + frames[:, self.ends]) / 2
-        place: ComplexArray = (start + arms) @ self.weights - frames[:, self.carried] @ self.middle
-        return place
+        before, gain = (unit(t[:, None] * self.turn) @ self.arms).T
+        place: ComplexArray = frames[:, self.carrier] @ self.start + before + t * gain
+        return place - frames[:, self.carried] @ self.middle
 
 
 def connect(
@@ -86,46 +81,60 @@ def connect(
     bridges = []
     for k, carrier in _tree(a, b, rows, root):
         bridge = _bridge(a, b, rows[k], found[k].vertex_shares(), rows[carrier], found[carrier])
-        found[k] = found[k].following(float(bridge.turn @ bridge.weights))
+        found[k] = found[k].following(bridge.mean_turn)
         bridges.append(bridge)
     return found, bridges
 
 
 def _tree(a: ComplexArray, b: ComplexArray, rows: Sequence[slice], root: int) -> Iterator[tuple[int, int]]:
     """Pairs (outline, its carrier), nearest first: a minimum spanning tree by the gaps in both keyframes."""
-    probes = [np.unique(np.linspace(r.start, r.stop - 1, PROBES).astype(np.intp)) for r in rows]
-    gap = {k: _gap(a, b, probes[k], probes[root]) for k in range(len(rows)) if k != root}
-    carrier = dict.fromkeys(gap, root)
-    while gap:
-        k = min(gap, key=gap.__getitem__)
-        yield k, carrier[k]
-        del gap[k]
-        for j in gap:
-            to_k = _gap(a, b, probes[j], probes[k])
-            if to_k < gap[j]:
-                gap[j], carrier[j] = to_k, k
+    probes = np.stack([np.linspace(r.start, r.stop - 1, PROBES).astype(np.intp) for r in rows])
+    left, right = a[probes], b[probes]
+    gap = np.full(len(rows), np.inf)
+    carrier = np.full(len(rows), root)
+    free = np.arange(len(rows)) != root
+    k = root
+    for _ in range(len(rows) - 1):
+        nearer = _gaps(left, k) + _gaps(right, k)
+        nearest = nearer.min(axis=(1, 2))
+        carrier[nearest < gap] = k
+        gap = np.minimum(gap, nearest)
+        k = int(np.where(free, gap, np.inf).argmin())
+        free[k] = False
+        yield k, int(carrier[k])
 
 
-def _gap(a: ComplexArray, b: ComplexArray, i: npt.NDArray[np.intp], j: npt.NDArray[np.intp]) -> float:
-    """Least distance between two outlines, of the sum of squares over both keyframes."""
-    da, db = a[i, None] - a[j], b[i, None] - b[j]
-    return float((da.real**2 + da.imag**2 + db.real**2 + db.imag**2).min())
+def _gaps(probes: ComplexArray, k: int) -> FloatArray:
+    """Squares of the distances from the probes (m, p) of all outlines to those of outline k, (m, p, p)."""
+    d = probes[:, :, None] - probes[k]
+    return np.asarray(d.real**2 + d.imag**2)
 
 
 def _bridge(
     a: ComplexArray, b: ComplexArray, carried: slice, middle: FloatArray, carrier: slice, headings: Headings
 ) -> Bridge:
-    edges = np.arange(carrier.start, carrier.stop)
-    ends = np.append(edges[1:], edges[0])
-    arm_a = a[carried] @ middle - (a[edges] + a[ends]) / 2
-    arm_b = b[carried] @ middle - (b[edges] + b[ends]) / 2
+    arm_a = a[carried] @ middle - _edge_middles(a[carrier])
+    arm_b = b[carried] @ middle - _edge_middles(b[carrier])
     reach = np.abs(arm_a) ** 2 + np.abs(arm_b) ** 2
     reach += 1e-6 * reach.max() + np.finfo(np.float64).tiny
     # cut off continuously, so that only the near edges need be turned in every frame
     weights = headings.shares * np.maximum((reach.min() / reach) ** 2 - REACH, 0.0)
     if not weights.any():  # the carrier is a point in both keyframes, or only doubled vertices are near
-        weights = np.ones(len(edges))
+        weights = np.ones(len(reach))
+    weights = weights / weights.sum()
     near = np.flatnonzero(weights)
-    share, turn = weights[near] / weights.sum(), headings.turn[near]
-    back = np.exp(-1j * turn)
-    return Bridge(carried, edges[near], ends[near], share, arm_a[near], arm_b[near] * back, turn, middle)
+    turn = headings.turn[near]
+    first, last = arm_a[near], arm_b[near] * unit(-turn)
+    return Bridge(
+        carried,
+        carrier,
+        ((weights + np.roll(weights, 1)) / 2).astype(np.complex128),
+        middle.astype(np.complex128),
+        weights[near, None] * np.stack([first, last - first], axis=1),
+        turn,
+        float(turn @ weights[near]),
+    )
+
+
+def _edge_middles(p: ComplexArray) -> ComplexArray:
+    return np.asarray((p + np.append(p[1:], p[0])) / 2, np.complex128)

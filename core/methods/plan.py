@@ -53,8 +53,8 @@ class DrawingPlan:
         GeometryError
             If a t is not a finite number.
         """
-        times = _as_times(t)
-        frames = self.paths.evaluate(np.atleast_1d(times))
+        times = np.atleast_1d(_as_times(t))
+        frames = self.paths.evaluate(times)
         first = 0
         outlines = []
         for pair in self.pairs:

@@ -1,4 +1,5 @@
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -141,3 +142,14 @@ def test_a_drawing_without_outlines_has_frames_without_outlines(method):
 def test_a_drawing_names_the_outline_whose_vertices_do_not_match(method):
     with pytest.raises(GeometryError, match="outline 1: before has 4 vertices, after has 3"):
         plan_drawing([AlignedPair(SQUARE, DIAMOND), AlignedPair(SQUARE, DIAMOND[:3])], method=method)
+
+
+def test_threads_do_not_share_work_memory():
+    rng = np.random.default_rng(8)
+    paths = [plan(*rng.uniform(0, 100, (2, 400, 2))) for _ in range(8)]
+    t = np.linspace(0, 1, 60)
+    expected = [p.evaluate(t) for p in paths]
+    with ThreadPoolExecutor(4) as threads:
+        for _ in range(5):
+            for got, want in zip(threads.map(lambda p: p.evaluate(t), paths), expected, strict=True):
+                assert np.array_equal(got, want)
