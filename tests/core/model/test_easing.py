@@ -36,10 +36,10 @@ def test_every_t_lies_on_the_bezier_curve(x1, y1, x2, y2, u):
 @given(RATIO, ANY_Y, RATIO, ANY_Y)
 def test_turning_the_curve_round_turns_time_round(x1, y1, x2, y2):
     there = Easing(x1, y1, x2, y2).t_at(RATIOS)
-    back = Easing(1 - x2, 1 - y2, 1 - x1, 1 - y1) if -4 <= 1 - y2 <= 5 and -4 <= 1 - y1 <= 5 else None
-    if back is not None:
-        steep = np.abs(np.gradient(there, RATIOS)) > 30
-        np.testing.assert_allclose((1 - back.t_at(1 - RATIOS))[~steep], there[~steep], atol=1e-6)
+    if max(1 - y1, 1 - y2) <= 5 and min(1 - y1, 1 - y2) >= -4:
+        back = Easing(1 - x2, 1 - y2, 1 - x1, 1 - y1)
+        # not exact: where the curve stands upright, the last bit of the ratio decides about the sixth digit of t
+        np.testing.assert_allclose(1 - back.t_at(1 - RATIOS), there, atol=2e-4)
 
 
 @given(RATIO, RATIO)
