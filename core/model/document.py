@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import re
 from bisect import bisect_right
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -10,13 +11,18 @@ from typing import NamedTuple
 from core.correspondence.pairing import Correspondence
 from core.errors import DocumentError
 from core.methods.plan import METHODS
-from core.model.drawing import Color, Drawing, as_color
+from core.model.drawing import Color, Drawing, as_color, check_id
 from core.model.easing import Easing
 
 LARGEST_STAGE = 16_384
 LONGEST = 100_000
 FASTEST = 1000
 MOST_TURNS = 100
+LONGEST_NAME = 1000
+FINEST_RATE = 2**31 - 1
+"""Largest upper or lower number of a frame rate."""
+
+RATE_PATTERN = re.compile(r"\d{1,12}(\.\d{0,12})?|\.\d{1,12}|\d{1,12}\s*/\s*\d{1,12}", re.ASCII)
 
 
 class Anchor(NamedTuple):
@@ -44,6 +50,11 @@ class OutlinePair:
     after: int
     anchors: tuple[Anchor, ...] = ()
     correspondence: Correspondence | None = None
+
+    def __post_init__(self) -> None:
+        for anchor in self.anchors:
+            if not (math.isfinite(anchor.before) and math.isfinite(anchor.after)):
+                raise DocumentError(f"an anchor of outlines {self.before} and {self.after} is not a finite number")
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,6 +135,11 @@ class Layer:
     keyframes: tuple[Keyframe, ...] = ()
 
     def __post_init__(self) -> None:
+        check_id(self.id, name="a layer")
+        if len(self.name) > LONGEST_NAME:
+            raise DocumentError(f"the layer's name has {len(self.name)} characters; the limit is {LONGEST_NAME}")
+        if any(0xD800 <= ord(c) <= 0xDFFF for c in self.name):
+            raise DocumentError("the layer's name has half a character in it, which no file can hold")
         frames = self.frames()
         for earlier, later in itertools.pairwise(frames):
             if later <= earlier:
@@ -191,6 +207,8 @@ class Document:
     def __post_init__(self) -> None:
         if not 0 < self.rate <= FASTEST:
             raise DocumentError(f"the frame rate is {self.rate}; it must be above 0 and at most {FASTEST}")
+        if max(self.rate.numerator, self.rate.denominator) > FINEST_RATE:
+            raise DocumentError(f"the frame rate is {self.rate}; its two numbers must be at most {FINEST_RATE}")
         if not 1 <= self.length <= LONGEST:
             raise DocumentError(f"the film has {self.length} frames; it must have 1 to {LONGEST}")
         if not self.layers:
@@ -220,10 +238,13 @@ def ratio_in_span(before: Keyframe, after: Keyframe, frame: float) -> float:
 
 def as_rate(text: str) -> Fraction:
     """Return a frame rate from "24", "23.976" or "24000/1001"; raises DocumentError with one sentence."""
+    wrong = f"{text[:40]!r} is no frame rate; write 24, 29.97 or 30000/1001"
+    if not RATE_PATTERN.fullmatch(text.strip()):  # an exponent could ask for a number that fills the memory
+        raise DocumentError(wrong)
     try:
-        rate = Fraction(text.strip())
-    except (ValueError, ZeroDivisionError):
-        raise DocumentError(f"{text!r} is no frame rate; write 24, 29.97 or 30000/1001") from None
-    if not 0 < rate <= FASTEST or not math.isfinite(rate):
-        raise DocumentError(f"the frame rate is {text}; it must be above 0 and at most {FASTEST}")
-    return rate.limit_denominator(100_000)
+        rate = Fraction("".join(text.split())).limit_denominator(100_000)
+    except ZeroDivisionError:
+        raise DocumentError(wrong) from None
+    if not 0 < rate <= FASTEST:
+        raise DocumentError(f"the frame rate is {text.strip()}; it must be above 0 and at most {FASTEST}")
+    return rate

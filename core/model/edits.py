@@ -4,6 +4,7 @@ An edit that changes nothing returns the very same document. Where vertices are 
 of the spans on both sides stay at their places on the outline.
 """
 
+import itertools
 from bisect import insort
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
@@ -14,12 +15,16 @@ import numpy.typing as npt
 
 from core.correspondence.pairing import ordered_anchors
 from core.errors import CorrespondenceError, DocumentError
-from core.geometry.outline import FloatArray, lengths_at, points_at
+from core.geometry.outline import FloatArray, points_at
 from core.model.document import Anchor, Document, Keyframe, Layer, OutlinePair, Span, Stage
 from core.model.drawing import Drawing, Outline, Style
 from core.model.easing import Easing
+from core.model.positions import Positions, after_deletion, after_insertion, holding, same_build
 
-Positions = Callable[[float], float]
+Mine = Callable[[OutlinePair], int]
+"""The side of a pair that an edit is about: its outline before or its outline after."""
+
+NOT_MOVED: Mapping[int, int] = {}
 
 
 def set_stage(document: Document, stage: Stage) -> Document:
@@ -53,14 +58,17 @@ def set_layer(
 def put_drawing(document: Document, layer_id: int, frame: int, drawing: Drawing) -> Document:
     """Make `drawing` the keyframe at `frame`, new or in place of the one that is there.
 
-    A new keyframe inside a span takes its method and easing; a film that is too short grows to the frame.
+    A new keyframe inside a span takes its method and easing; a film that is too short grows to the frame. Where
+    an outline is gone or has another number of vertices, the anchors on it go with it.
     """
     layer = document.layer(layer_id)
     old = layer.keyframe_at(frame)
     if old is not None:
         if old.drawing == drawing:
             return document
-        return _with_keyframe(document, layer, replace(old, drawing=drawing))
+        document = _with_keyframe(document, layer, replace(old, drawing=drawing))
+        lost = {o.id for o in old.drawing.outlines if not same_build(o, drawing)}
+        return _in_both_spans(document, layer_id, frame, lambda pair, mine: None if mine(pair) in lost else pair)
     earlier = [k for k in layer.keyframes if k.frame < frame]
     neighbour = earlier[-1] if earlier else (layer.keyframes[0] if layer.keyframes else None)
     span = replace(neighbour.span, pairs=(), turns=0) if neighbour else Span()
@@ -87,7 +95,7 @@ def move_keyframe(document: Document, layer_id: int, frame: int, to: int) -> Doc
         raise DocumentError(f"frame {to} of {layer.name!r} already holds a keyframe")
     rest = [k for k in layer.keyframes if k.frame != frame]
     insort(rest, replace(keyframe, frame=to), key=lambda k: k.frame)
-    document = _with_keyframes(document, layer, rest)
+    document = _with_keyframes(document, layer, rest, moved={to: frame})
     return set_length(document, max(document.length, to))
 
 
@@ -131,23 +139,19 @@ def insert_vertex(document: Document, layer_id: int, frame: int, outline_id: int
     layer = document.layer(layer_id)
     keyframe = _keyframe(layer, frame)
     outline = keyframe.drawing.outline(outline_id)
+    top = len(outline.points) if outline.closed else len(outline.points) - 1
+    if not 0 <= position <= top:
+        raise DocumentError(f"a vertex at {position:g} on outline {outline_id}, which ends at {top}")
     edge = int(position)
     if position == edge:
         return document
     place = points_at(outline.points, np.array([position]), closed=outline.closed)
     points = np.insert(outline.points, edge + 1, place, axis=0)
 
-    def moved(at: float) -> float:
-        if at <= edge:
-            return at
-        if at >= edge + 1:
-            return at + 1
-        share = position - edge
-        along = at - edge
-        return edge + along / share if along <= share else edge + 1 + (along - share) / (1 - share)
-
     drawing = keyframe.drawing.with_outline(replace(outline, points=points))
-    return _with_changed_outline(document, layer, replace(keyframe, drawing=drawing), outline_id, moved)
+    return _with_changed_outline(
+        document, layer, replace(keyframe, drawing=drawing), outline_id, after_insertion(position)
+    )
 
 
 def delete_vertices(
@@ -158,8 +162,12 @@ def delete_vertices(
         layer = document.layer(layer_id)
         keyframe = _keyframe(layer, frame)
         outline = keyframe.drawing.outline(outline_id)
-        keep = np.setdiff1d(np.arange(len(outline.points)), np.fromiter(gone, dtype=np.intp))
-        if len(keep) == len(outline.points):
+        count = len(outline.points)
+        lost = np.unique(np.fromiter(gone, dtype=np.intp))
+        if len(lost) and not 0 <= lost[0] <= lost[-1] < count:
+            raise DocumentError(f"outline {outline_id} has {count} vertices; there is no {lost[[0, -1]].tolist()}")
+        keep = np.setdiff1d(np.arange(count), lost)
+        if len(keep) == count:
             continue
         if len(keep) < (3 if outline.closed else 2):
             document = delete_outline(document, layer_id, frame, outline_id)
@@ -167,7 +175,7 @@ def delete_vertices(
         changed = replace(
             keyframe, drawing=keyframe.drawing.with_outline(replace(outline, points=outline.points[keep]))
         )
-        document = _with_changed_outline(document, layer, changed, outline_id, _kept_positions(outline, keep))
+        document = _with_changed_outline(document, layer, changed, outline_id, after_deletion(outline, keep))
     return document
 
 
@@ -227,6 +235,8 @@ def add_anchor(
         If it crosses another anchor.
     """
     old = _span(document, layer_id, frame).pair_of(before_id, after_id)
+    if old and anchor in old.anchors:
+        return document
     kept = tuple(x for x in old.anchors if x.before != anchor.before and x.after != anchor.after) if old else ()
     return _set_anchors(document, layer_id, frame, before_id, after_id, (*kept, anchor))
 
@@ -235,7 +245,7 @@ def move_anchor(
     document: Document, layer_id: int, frame: int, before_id: int, after_id: int, index: int, anchor: Anchor
 ) -> Document:
     """Put the anchor number `index` of a pair elsewhere on the two outlines; raises as `add_anchor` does."""
-    anchors = list(_anchors(document, layer_id, frame, before_id, after_id))
+    anchors = list(_anchors(document, layer_id, frame, before_id, after_id, index))
     if anchors[index] == anchor:
         return document
     anchors[index] = anchor
@@ -246,7 +256,7 @@ def delete_anchor(
     document: Document, layer_id: int, frame: int, before_id: int, after_id: int, index: int
 ) -> Document:
     """Take one anchor away; the pair of outlines stays."""
-    anchors = _anchors(document, layer_id, frame, before_id, after_id)
+    anchors = _anchors(document, layer_id, frame, before_id, after_id, index)
     rest = anchors[:index] + anchors[index + 1 :]
     return _set_anchors(document, layer_id, frame, before_id, after_id, rest)
 
@@ -282,13 +292,18 @@ def _with_keyframe(document: Document, layer: Layer, keyframe: Keyframe) -> Docu
     return document.with_layer(replace(layer, keyframes=keyframes))
 
 
-def _with_keyframes(document: Document, layer: Layer, keyframes: list[Keyframe]) -> Document:
-    """Set all keyframes; a span whose keyframe after is another one now forgets its pairs."""
-    followers = {id(a.drawing): b.drawing for a, b in zip(layer.keyframes, layer.keyframes[1:], strict=False)}
+def _with_keyframes(
+    document: Document, layer: Layer, keyframes: list[Keyframe], *, moved: Mapping[int, int] = NOT_MOVED
+) -> Document:
+    """Set all keyframes; a span whose keyframe after is another one now forgets its pairs.
+
+    `moved` tells the frame that a keyframe came from. Drawings cannot tell: several keyframes may share one.
+    """
+    followers = {a.frame: b.drawing for a, b in itertools.pairwise(layer.keyframes)}
     renewed = []
-    for i, k in enumerate(keyframes):
-        follower = keyframes[i + 1].drawing if i + 1 < len(keyframes) else None
-        if k.span.pairs and followers.get(id(k.drawing)) is not follower:
+    for k, following in itertools.zip_longest(keyframes, keyframes[1:]):
+        follower = following.drawing if following else None
+        if k.span.pairs and followers.get(moved.get(k.frame, k.frame)) is not follower:
             k = replace(k, span=replace(k.span, pairs=()))
         renewed.append(k)
     return document.with_layer(replace(layer, keyframes=tuple(renewed)))
@@ -299,13 +314,22 @@ def _with_changed_outline(
 ) -> Document:
     """Set a keyframe in which one outline got other vertices, and carry the anchors on it along."""
     document = _with_keyframe(document, layer, keyframe)
+    count = len(keyframe.drawing.outline(outline_id).points)
+    here = layer.frames().index(keyframe.frame)
 
-    def carried(pair: OutlinePair, mine: Callable[[OutlinePair], int]) -> OutlinePair:
+    def carried(pair: OutlinePair, mine: Mine) -> OutlinePair | None:
         if mine(pair) != outline_id:
             return pair
-        side = "before" if mine is _before_id else "after"
-        anchors = tuple(x._replace(**{side: moved(getattr(x, side))}) for x in pair.anchors)
-        return replace(pair, anchors=anchors, correspondence=None)
+        before = mine is _before_id
+        drawing = layer.keyframes[here + 1 if before else here - 1].drawing
+        partner_id = pair.after if before else pair.before
+        if not drawing.has(partner_id):
+            return None
+        partner = drawing.outline(partner_id)
+        counts = (count, len(partner.points)) if before else (len(partner.points), count)
+        side = "before" if before else "after"
+        anchors = [x._replace(**{side: moved(getattr(x, side))}) for x in pair.anchors]
+        return replace(pair, anchors=holding(anchors, counts, closed=partner.closed), correspondence=None)
 
     return _in_both_spans(document, layer.id, keyframe.frame, carried)
 
@@ -322,13 +346,13 @@ def _in_both_spans(
     document: Document,
     layer_id: int,
     frame: int,
-    change: Callable[[OutlinePair, Callable[[OutlinePair], int]], OutlinePair | None],
+    change: Callable[[OutlinePair, Mine], OutlinePair | None],
 ) -> Document:
     """Apply `change` to the pairs of the span that begins at `frame` and of the one that ends there."""
     layer = document.layer(layer_id)
     here = layer.frames().index(frame)
     for i, mine in ((here, _before_id), (here - 1, _after_id)):
-        if i < 0 or not layer.keyframes[i].span.pairs:
+        if not 0 <= i < len(layer.keyframes) - 1 or not layer.keyframes[i].span.pairs:
             continue
         keyframe = layer.keyframes[i]
         pairs = tuple(p for p in (change(pair, mine) for pair in keyframe.span.pairs) if p is not None)
@@ -338,37 +362,15 @@ def _in_both_spans(
     return document
 
 
-def _kept_positions(outline: Outline, keep: npt.NDArray[np.intp]) -> Positions:
-    """From a position on the outline to the one at the same share of the way between the vertices kept."""
-    n, closed = len(outline.points), outline.closed
-    old = keep.astype(np.float64)
-    new = np.arange(len(keep), dtype=np.float64)
-    if closed:
-        old, new = np.append(old, old[0] + n), np.append(new, len(keep))
-    whole = float(lengths_at(outline.points, np.array([n if closed else n - 1]), closed=closed)[0])
-
-    def length(at: FloatArray) -> FloatArray:
-        rounds = np.floor(at / n) if closed else np.zeros_like(at)
-        return lengths_at(outline.points, at - rounds * n, closed=closed) + rounds * whole
-
-    marks = length(old)
-
-    def moved(at: float) -> float:
-        lifted = at + n if closed and at < old[0] else at
-        exact = np.flatnonzero(old == lifted)
-        if len(exact):
-            place = float(new[exact[0]])
-        else:
-            place = float(np.interp(length(np.array([lifted])), marks, new)[0])
-        return place % len(keep) if closed else place
-
-    return moved
-
-
-def _anchors(document: Document, layer_id: int, frame: int, before_id: int, after_id: int) -> tuple[Anchor, ...]:
+def _anchors(
+    document: Document, layer_id: int, frame: int, before_id: int, after_id: int, index: int
+) -> tuple[Anchor, ...]:
+    """Return the anchors of a pair, which must have one of that number."""
     pair = _span(document, layer_id, frame).pair_of(before_id, after_id)
-    if pair is None:
-        raise DocumentError(f"outlines {before_id} and {after_id} have no anchors in the span at frame {frame}")
+    if pair is None or not 0 <= index < len(pair.anchors):
+        raise DocumentError(
+            f"outlines {before_id} and {after_id} have no anchor {index} in the span at frame {frame}"
+        )
     return pair.anchors
 
 
