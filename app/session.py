@@ -146,7 +146,7 @@ class Session(QObject):
         super().__init__(parent)
         self.undo_stack = QUndoStack(self)
         self.undo_stack.setUndoLimit(UNDO_LIMIT)
-        self.undo_stack.cleanChanged.connect(lambda _: self.fileChanged.emit())
+        self.undo_stack.cleanChanged.connect(self._on_clean_changed)
         self._document = Document()
         self._selection = Selection()
         self._frame = 1
@@ -154,6 +154,9 @@ class Session(QObject):
         self._gesture: Gesture | None = None
         self.path: Path | None = None
         self.title: str | None = None
+
+    def _on_clean_changed(self, _: bool) -> None:
+        self.fileChanged.emit()
 
     # what is open
 

@@ -62,10 +62,11 @@ class Hand:
         held: Qt.KeyboardModifier = NONE,
     ) -> None:
         """Press at the start, move along the way, release at its end."""
-        self.press(start, held)
-        for place in way:
-            self.move(place, held)
-        self.release(way[-1], held)
+        pad, path = self.canvas.viewport(), [self.view(p) for p in (start, *way)]
+        QTest.mousePress(pad, LEFT, held, path[0])
+        for at in path[1:]:
+            move_pointer(pad, at, held, LEFT)
+        QTest.mouseRelease(pad, LEFT, held, path[-1])
 
     # keys, menus, the rest of the window
 
@@ -112,8 +113,8 @@ def move_pointer(widget: QWidget, at: QPoint, held: Qt.KeyboardModifier, button:
 
 
 @pytest.fixture(scope="session")
-def qapp() -> Iterator[QApplication]:
-    yield make_application()
+def qapp() -> QApplication:
+    return make_application()
 
 
 @pytest.fixture
@@ -126,7 +127,8 @@ def settings(tmp_path: Path) -> Settings:
 def editor(qtbot: QtBot, settings: Settings) -> Iterator[Editor]:
     settings.keep("theme", "dark")
     made = Editor(settings)
-    qtbot.addWidget(made.window)
+    # the window is closed before this fixture ends, and nobody is there to answer a question
+    qtbot.addWidget(made.window, before_close_func=lambda _: setattr(made.files, "may_leave", lambda: True))
     made.window.resize(1440, 900)
     with qtbot.waitExposed(made.window):
         made.window.show()
@@ -135,7 +137,6 @@ def editor(qtbot: QtBot, settings: Settings) -> Iterator[Editor]:
     yield made
     made.playback.stop()
     made.preview.stop()
-    made.files.may_leave = lambda: True  # the window is closed now, and nobody is there to answer
 
 
 @pytest.fixture
