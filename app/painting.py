@@ -5,7 +5,8 @@ tell. So vertices are mapped to device px by numpy first, and thinned there.
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections import OrderedDict
+from collections.abc import Callable, Iterable, Sequence
 from typing import Literal
 
 import numpy as np
@@ -48,6 +49,31 @@ def outlines_path(outlines: Outlines, transform: QTransform) -> QPainterPath:
 
 def _thinned_outlines(outlines: Outlines, transform: QTransform) -> list[tuple[FloatArray, bool]]:
     return [(_thinned(_mapped(p, transform), closed=closed), closed) for p, closed in outlines if len(p)]
+
+
+class Thinner:
+    """Thins outlines, and remembers those that cannot change (read-only arrays) for the next picture."""
+
+    def __init__(self, capacity: int = 64) -> None:
+        self._capacity = capacity
+        self._kept: OrderedDict[object, tuple[FloatArray, FloatArray]] = OrderedDict()
+
+    def __call__(self, outlines: Outlines, transform: QTransform) -> list[tuple[FloatArray, bool]]:
+        where = (transform.m11(), transform.m12(), transform.m21(), transform.m22(), transform.dx(), transform.dy())
+        return [(self._thinned(p, closed, where, transform), closed) for p, closed in outlines if len(p)]
+
+    def _thinned(self, points: FloatArray, closed: bool, where: object, transform: QTransform) -> FloatArray:
+        if points.flags.writeable:
+            return _thinned(_mapped(points, transform), closed=closed)
+        key = (id(points), closed, where)
+        found = self._kept.get(key)
+        if found is None:
+            # the array is kept too, so that no other one can take its id
+            found = self._kept[key] = (points, _thinned(_mapped(points, transform), closed=closed))
+        self._kept.move_to_end(key)
+        while len(self._kept) > self._capacity:
+            self._kept.popitem(last=False)
+        return found[1]
 
 
 def _path(outlines: Outlines) -> QPainterPath:
@@ -133,15 +159,17 @@ def paint_outlines(
     stroke: QColor | None,
     width: float,
     transform: QTransform | None = None,
+    thin: Callable[[Outlines, QTransform], Outlines] | None = None,
 ) -> None:
     """Fill outlines odd-even, then stroke them `width` device px wide.
 
     `transform` maps the vertices to the px of the painter's untransformed surface; None takes the painter's own.
+    `thin` is a `Thinner` that is kept from picture to picture.
     """
     painter.save()
     own = painter.deviceTransform()
     surface = _enter_device(painter)
-    thinned = _thinned_outlines(outlines, own if transform is None else transform * surface)
+    thinned = (thin or _thinned_outlines)(outlines, own if transform is None else transform * surface)
     path = _path(thinned)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     if fill is not None:

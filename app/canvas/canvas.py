@@ -20,6 +20,7 @@ from app.canvas.items import (
 )
 from app.canvas.papers import whole_area
 from app.canvas.tool import Pointer, Tool
+from app.painting import Thinner
 from app.preview.spans import SpanPreview
 from app.session import Session
 from app.theme import Theme
@@ -52,6 +53,7 @@ class Canvas(pg.GraphicsView):
         self.camera = Camera()
         self.tool: Tool | None = None
         self.hover: QPointF | None = None
+        self.thinner = Thinner()
         self._plans = PlanCache()
         self._content: Content | None = None
         self._follows_stage = True

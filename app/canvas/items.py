@@ -5,13 +5,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPainterPath, QPen
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPainterPath, QPen, QTransform
 from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
 from app.canvas.content import FILM_TIMES, Content
 from app.canvas.hits import anchor_places
 from app.canvas.papers import AFTER, BEFORE, INBETWEEN, Paper
-from app.painting import paint_outlines, paint_picture, to_qcolor
+from app.painting import Outlines, paint_outlines, paint_picture, to_qcolor
 from core.geometry.outline import FloatArray, arc_lengths, perimeter
 
 if TYPE_CHECKING:
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 KEY_WIDTH = 1.8
 INBETWEEN_WIDTH = 2.2
 SKIN_WIDTH = 1.0
+FEW_SKIN_VERTICES = 1000
 MOST_LINES = 40
 CLOSEST_VERTICES = 7.0
 """View px: vertices nearer to each other on average are not marked one by one."""
@@ -43,6 +44,26 @@ class CanvasItem(pg.GraphicsObject):
 
     def draw(self, painter: QPainter, content: Content) -> None:
         """Paint this kind of thing."""
+
+    def paint_lines(
+        self,
+        painter: QPainter,
+        outlines: Outlines,
+        stroke: QColor | None,
+        width: float,
+        transform: QTransform,
+        fill: QColor | None = None,
+    ) -> None:
+        """Paint outlines `width` view px wide."""
+        paint_outlines(
+            painter,
+            outlines,
+            fill=fill,
+            stroke=stroke,
+            width=width * self.canvas.devicePixelRatioF(),
+            transform=transform,
+            thin=self.canvas.thinner,
+        )
 
 
 class PaperItem(CanvasItem):
@@ -83,9 +104,8 @@ class OnionItem(CanvasItem):
             transform = self.canvas.camera.transform(paper.offset)
             for skin in content.onion:
                 color = self.canvas.theme.color(f"onion_{skin.side}", skin.strength)
-                paint_outlines(
-                    painter, skin.outlines, fill=None, stroke=color, width=SKIN_WIDTH, transform=transform
-                )
+                outlines = [(spaced(p, self.canvas.camera.scale), closed) for p, closed in skin.outlines]
+                self.paint_lines(painter, outlines, color, SKIN_WIDTH, transform)
 
 
 class FilmItem(CanvasItem):
@@ -99,7 +119,7 @@ class FilmItem(CanvasItem):
                 color = blend(theme.color("before"), theme.color("after"), t)
                 fill = QColor(color)
                 fill.setAlphaF(0.10)
-                paint_outlines(painter, outlines, fill=fill, stroke=color, width=1.3, transform=transform)
+                self.paint_lines(painter, outlines, color, 1.3, transform, fill)
 
 
 class ShapesItem(CanvasItem):
@@ -124,7 +144,7 @@ class ShapesItem(CanvasItem):
             held = alone and keyframe.frame != content.frame  # shown, though the playhead is elsewhere
             color = self.canvas.theme.color(side, 0.55 if held else 1.0)
             outlines = [(o.points, o.closed) for o in keyframe.drawing.outlines]
-            paint_outlines(painter, outlines, fill=None, stroke=color, width=KEY_WIDTH, transform=transform)
+            self.paint_lines(painter, outlines, color, KEY_WIDTH, transform)
 
     def _draw_inbetween(self, painter: QPainter, content: Content, paper: Paper) -> None:
         if content.picture is None or INBETWEEN not in paper.shows:
@@ -135,14 +155,7 @@ class ShapesItem(CanvasItem):
         stroke = None if on_key or beside else theme.color("inbetween")
         fill = theme.color("accent", 0.16)
         transform = self.canvas.camera.transform(paper.offset)
-        paint_outlines(
-            painter,
-            content.picture.outlines,
-            fill=fill,
-            stroke=stroke,
-            width=INBETWEEN_WIDTH,
-            transform=transform,
-        )
+        self.paint_lines(painter, content.picture.outlines, stroke, INBETWEEN_WIDTH, transform, fill)
 
 
 class LinesItem(CanvasItem):
@@ -289,6 +302,14 @@ def line_papers(content: Content) -> list[tuple[Paper, Paper]]:
     starts = [p for p in content.papers if BEFORE in p.shows]
     ends = [p for p in content.papers if AFTER in p.shows]
     return [(p, p) for p in starts if p in ends] or list(zip(starts, ends, strict=False))
+
+
+def spaced(points: FloatArray, scale: float) -> FloatArray:
+    """Leave out vertices of a skin where many share one view px: a ghost needs no better."""
+    if len(points) <= FEW_SKIN_VERTICES:
+        return points
+    wide, high = np.ptp(points[:: len(points) // 256], axis=0) * scale
+    return points[:: max(1, int(len(points) / (4 * (wide + high))))]
 
 
 def spread_rows(left: FloatArray, right: FloatArray, closed: bool) -> FloatArray:

@@ -117,7 +117,7 @@ def points_at(points: FloatArray, positions: npt.ArrayLike, *, closed: bool = Tr
     i %= n  # mod of a tiny negative number rounds up to n itself
     j = (i + 1) % n if closed else np.minimum(i + 1, n - 1)
     f = f[..., None]
-    return np.where(f == 0, points[i], points[i] * (1 - f) + points[j] * f)
+    return points[i] * (1 - f) + points[j] * f
 
 
 def positions_at_lengths(points: FloatArray, lengths: npt.ArrayLike, *, closed: bool = True) -> FloatArray:

@@ -30,16 +30,29 @@ class Picture:
     style: Style
 
 
-@dataclass(frozen=True, slots=True)
+Rows = tuple[FloatArray, FloatArray]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class PairMatch:
-    """Two outlines by id and their correspondence."""
+    """Two outlines by id and their correspondence.
+
+    Attributes
+    ----------
+    before, after : int
+    correspondence : Correspondence
+    rows : Rows or None
+        Positions of the vertices of the in-between on both outlines, worked out before; they stay good while
+        vertices are dragged, and taking them again is quicker than walking along both outlines at every step.
+    """
 
     before: int
     after: int
     correspondence: Correspondence
+    rows: Rows | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class SpanMatch:
     """Every correspondence of a span; outlines named nowhere here have no partner."""
 
@@ -142,7 +155,7 @@ def plan_span(before: Drawing, after: Drawing, span: Span, matched: SpanMatch | 
         If `matched` is of outlines with other vertex counts, or the anchors cross.
     """
     matched = matched or match_span(before, after, span)
-    links = [_paired(before.outline(p.before), after.outline(p.after), p.correspondence) for p in matched.pairs]
+    links = [_paired(before.outline(p.before), after.outline(p.after), p) for p in matched.pairs]
     partnered_before = {p.before for p in matched.pairs}
     partnered_after = {p.after for p in matched.pairs}
     links += [_shrinking(o, after) for o in before.outlines if o.id not in partnered_before]
@@ -151,9 +164,9 @@ def plan_span(before: Drawing, after: Drawing, span: Span, matched: SpanMatch | 
     return SpanPlan(tuple(links), paths, (before.style, after.style))
 
 
-def _paired(a: Outline, b: Outline, correspondence: Correspondence) -> Link:
-    p, q = correspondence.aligned_positions(a.points, b.points)
-    closed = correspondence.closed
+def _paired(a: Outline, b: Outline, pair: PairMatch) -> Link:
+    p, q = pair.rows or pair.correspondence.aligned_positions(a.points, b.points)
+    closed = pair.correspondence.closed
     aligned = AlignedPair(points_at(a.points, p, closed=closed), points_at(b.points, q, closed=closed), closed)
     return Link(a.id, b.id, p, q, aligned)
 
