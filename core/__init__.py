@@ -1,6 +1,6 @@
 """The in-betweening engine: outlines, correspondences, vertex paths, documents. It knows no window."""
 
-from core.correspondence.matching import match
+from core.correspondence.matching import Alternative, alternatives, match, match_quick
 from core.correspondence.pairing import Correspondence
 from core.errors import (
     CorrespondenceError,
@@ -11,11 +11,14 @@ from core.errors import (
 )
 
 __all__ = [
+    "Alternative",
     "Correspondence",
     "CorrespondenceError",
     "DocumentError",
     "FileFormatError",
     "GeometryError",
     "InkbetweenError",
+    "alternatives",
     "match",
+    "match_quick",
 ]

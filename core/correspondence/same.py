@@ -1,0 +1,118 @@
+"""One shape drawn twice: every vertex is put exactly where it lies on the other drawing."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from core.correspondence.ring import ComplexArray, Ring
+from core.correspondence.track import Knots, Track
+from core.geometry.outline import FloatArray
+
+PERHAPS = 0.02
+"""Root mean square of what the similarity may leave (in radii) for the test to be worth making."""
+
+SAME = 0.002
+"""What may be left of it in the end: drawings that share a shape, not all their vertices."""
+
+ROUNDS = 3
+
+
+@dataclass(frozen=True)
+class Similarity:
+    """The map z -> factor z + shift of the complex plane: rotation, scale and shift."""
+
+    factor: complex
+    shift: complex
+
+    def __call__(self, z: ComplexArray) -> ComplexArray:
+        """Return the images of points."""
+        return self.factor * z + self.shift
+
+    @property
+    def inverse(self) -> "Similarity":
+        """The map back."""
+        return Similarity(1 / self.factor, -self.shift / self.factor)
+
+
+def same_shape(before: Ring, after: Ring, track: Track, knots: Knots) -> Track | None:
+    """Return the track that leaves a shape unmoved that was drawn twice, or None if these are two shapes."""
+    at = np.linspace(track.u[0], track.u[0] + 1, 128, endpoint=False) if before.closed else np.linspace(0, 1, 128)
+    p, q = before.at(at), after.at(track.images(at, closed=before.closed))
+    fit = _fitted(p, q)
+    if fit is None or _root_mean_square(fit(p) - q) > PERHAPS:
+        return None
+    for _ in range(ROUNDS):
+        track = _projected(before, after, track, fit, knots)
+        p, q = before.at(track.u), after.at(track.v)
+        if (fit := _fitted(p, q)) is None:
+            return None
+    return track if _root_mean_square(fit(p) - q) <= SAME else None
+
+
+def _root_mean_square(z: ComplexArray) -> float:
+    return float(np.sqrt((np.abs(z) ** 2).mean()))
+
+
+def _fitted(p: ComplexArray, q: ComplexArray) -> Similarity | None:
+    """Least squares; None where all points before are one."""
+    cp, cq = p.mean(), q.mean()
+    spread = (np.abs(p - cp) ** 2).sum()
+    factor = (np.conj(p - cp) * (q - cq)).sum() / spread if spread > 0 else 0.0
+    return Similarity(complex(factor), complex(cq - factor * cp)) if abs(factor) > 0 else None
+
+
+def _projected(before: Ring, after: Ring, track: Track, fit: Similarity, knots: Knots) -> Track:
+    """Pair every vertex of both rings with its nearest point on the other, carried over by `fit`."""
+    closed = before.closed
+    u = _from(before.vertex_shares, track.u[0], closed)
+    v = _from(after.vertex_shares, track.v[0], closed)
+    v_of_u = _nearest(after, fit(before.at(u)), np.interp(u, track.u, track.v))
+    u_of_v = _nearest(before, fit.inverse(after.at(v)), np.interp(v, track.v, track.u))
+    pairs_u, pairs_v = np.append(u, u_of_v), np.append(v_of_u, v)
+    order = np.lexsort((pairs_u, pairs_u + pairs_v))
+    keep = order[_rising(pairs_u[order]) & _rising(pairs_v[order])]
+    return _closed_up(pairs_u[keep], pairs_v[keep], knots)
+
+
+def _from(shares: FloatArray, start: float, closed: bool) -> FloatArray:
+    return start + np.mod(shares - start, 1.0) if closed else shares
+
+
+def _rising(x: FloatArray) -> npt.NDArray[np.bool_]:
+    """Whether a number is larger than all before and smaller than all after it."""
+    before = np.append(-np.inf, np.maximum.accumulate(x)[:-1])
+    after = np.append(np.minimum.accumulate(x[::-1])[::-1][1:], np.inf)
+    return (x > before + 1e-12) & (x < after)
+
+
+def _closed_up(u: FloatArray, v: FloatArray, knots: Knots) -> Track:
+    """The track through rising pairs and the knots; pairs that contradict a knot are dropped."""
+    if not knots:
+        inside = (u < u[0] + 1 - 1e-12) & (v < v[0] + 1 - 1e-12)
+        u, v = u[inside], v[inside]
+        return Track(np.append(u, u[0] + 1), np.append(v, v[0] + 1))
+    agree = ((u[:, None] - knots.u) * (v[:, None] - knots.v) > 0).all(axis=1)
+    u, v = np.append(u[agree], knots.u), np.append(v[agree], knots.v)
+    order = np.argsort(u)
+    return Track(u[order], v[order])
+
+
+def _nearest(r: Ring, points: ComplexArray, shares: FloatArray) -> FloatArray:
+    """Shares of the points of a ring nearest to `points`, looked for round `shares` and unrolled as they are."""
+    edges = len(r.shares) - 1
+    reach = min(8 + edges // 50, edges)
+    s = np.mod(shares, 1.0) if r.closed else shares
+    here = np.searchsorted(r.shares, s, side="right") - 1
+    k = here[:, None] + np.arange(-reach, reach + 1)
+    k = k % edges if r.closed else np.clip(k, 0, edges - 1)
+    start, d = r.z[:-1][k], np.diff(r.z)[k]
+    square = np.abs(d) ** 2
+    f = ((points[:, None] - start) * np.conj(d)).real
+    f = np.clip(np.divide(f, square, out=np.zeros_like(f), where=square > 0), 0.0, 1.0)
+    gap = np.abs(start + f * d - points[:, None])
+    rows, best = np.arange(len(points)), gap.argmin(axis=1)
+    k, f = k[rows, best], f[rows, best]
+    found = r.shares[k] + f * (r.shares[k + 1] - r.shares[k])
+    slid = found - s
+    return np.asarray(shares + (slid - np.rint(slid) if r.closed else slid))

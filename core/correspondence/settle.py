@@ -1,0 +1,96 @@
+"""Turn a solved track into the pairs of positions that are kept: few, at vertices, anchors exact."""
+
+import numpy as np
+
+from core.correspondence.cyclic import IntArray
+from core.correspondence.pairing import Correspondence
+from core.correspondence.problem import Problem
+from core.correspondence.ring import Ring
+from core.correspondence.track import Track
+from core.geometry.outline import FloatArray
+
+TOLERANCE = 1e-4
+"""By how much (share of the perimeter) the pairs may leave the track: a tenth of a pixel on a large drawing."""
+
+CLOSEST = 1e-7
+"""Shares nearer than this are one point; strictly rising pairs must not depend on rounding."""
+
+
+def settled(problem: Problem, track: Track, tolerance: float = TOLERANCE) -> Correspondence:
+    """Return the correspondence along a track, told by pairs of which one is a vertex.
+
+    Only vertices are paired, with whatever lies opposite: so aligning the outlines adds no other points, and a
+    straight edge moves evenly.
+    """
+    u, v, exact = _events(problem, track)
+    keep = _enough(u, v, exact, tolerance)
+    u, v, exact = u[keep], v[keep], exact[keep]
+    p, q = _positions(problem.first, u, exact == 1), _positions(problem.second, v, exact == 2)
+    if problem.swapped:
+        p, q = q, p
+    anchored = exact == 3
+    p, q = (np.append(x[~anchored], column) for x, column in zip((p, q), _fixed(problem).T, strict=True))
+    return Correspondence(p, q, problem.counts, problem.first.closed, problem.flipped)
+
+
+def _fixed(problem: Problem) -> FloatArray:
+    """Positions (before, after) that must be told exactly: the anchors, and the ends of open outlines."""
+    if problem.first.closed:
+        return problem.anchors
+    n, m = problem.counts
+    ends = np.array([[0.0, m - 1.0], [n - 1.0, 0.0]] if problem.flipped else [[0.0, 0.0], [n - 1.0, m - 1.0]])
+    inner = (problem.anchors[:, 0] > 0) & (problem.anchors[:, 0] < n - 1)
+    return np.concatenate([problem.anchors[inner], ends])
+
+
+def _events(problem: Problem, track: Track) -> tuple[FloatArray, FloatArray, IntArray]:
+    """Pairs along one round of the track: vertices of the first (1) and of the second (2) ring, knots (3)."""
+    closed = problem.first.closed
+    u = _within(problem.first.vertex_shares, track.u[0], closed)
+    v = _within(problem.second.vertex_shares, track.v[0], closed)
+    knot_u, knot_v = (x[:-1] if closed else x for x in (problem.knots.u, problem.knots.v))
+    all_u = np.concatenate([u, np.interp(v, track.v, track.u), knot_u])
+    all_v = np.concatenate([np.interp(u, track.u, track.v), v, knot_v])
+    kind = np.repeat([1, 2, 3], [len(u), len(v), len(knot_u)])
+    order = np.lexsort((-kind, all_u + all_v))
+    all_u, all_v, kind = all_u[order], all_v[order], kind[order]
+    clear = _clear(all_u, all_v, kind, closed)
+    return all_u[clear], all_v[clear], kind[clear]
+
+
+def _within(shares: FloatArray, start: float, closed: bool) -> FloatArray:
+    return start + np.mod(shares - start, 1.0) if closed else shares
+
+
+def _clear(u: FloatArray, v: FloatArray, kind: IntArray, closed: bool) -> IntArray:
+    """Indices of pairs far enough from the one before and from every knot; knots always stay."""
+    knots = kind == 3
+    free = ~knots
+    for x in (u, v):
+        gap = np.diff(x, prepend=x[-1] - 1 if closed else -1.0)
+        free &= gap > CLOSEST
+        for k in np.flatnonzero(knots):
+            beside = np.abs(x - x[k])
+            free &= (np.minimum(beside, 1 - beside) if closed else beside) > CLOSEST
+    clear = np.flatnonzero(knots | free)
+    return clear if len(clear) else np.zeros(1, dtype=np.intp)
+
+
+def _enough(u: FloatArray, v: FloatArray, kind: IntArray, tolerance: float) -> IntArray:
+    """Choose the fewest pairs between which even lengths stay within `tolerance` (Douglas and Peucker 1973)."""
+    chosen = kind == 3
+    chosen[[0, -1]] = True
+    while True:
+        at = np.flatnonzero(chosen)
+        miss = np.abs(np.interp(u, u[at], v[at]) - v)
+        if miss.max() <= tolerance:
+            return at
+        piece = np.searchsorted(at, np.arange(len(u)), side="right")
+        order = np.lexsort((-miss, piece))
+        first = order[np.append(True, np.diff(piece[order]) > 0)]
+        chosen[first[miss[first] > tolerance]] = True
+
+
+def _positions(r: Ring, shares: FloatArray, at_vertex: FloatArray) -> FloatArray:
+    p = r.positions(shares)
+    return np.where(at_vertex, np.rint(p), p)

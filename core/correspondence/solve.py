@@ -1,0 +1,101 @@
+"""From a problem to its ranked solutions, and from a solution to the finished track."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from core.correspondence.candidates import candidates, distinct
+from core.correspondence.corners import with_corners
+from core.correspondence.film import film_factor
+from core.correspondence.judge import Verdict, judged
+from core.correspondence.pairing import Correspondence
+from core.correspondence.problem import Problem
+from core.correspondence.refine import COARSE, FINE, Band, refined
+from core.correspondence.same import same_shape
+from core.correspondence.settle import settled
+from core.correspondence.track import Track, spread
+from core.geometry.outline import FloatArray
+
+CLOSE_CALL = 1.3
+"""Candidates that cost at most so many times the least are told apart by their films."""
+
+FILM_NODES = 128
+
+EXACT = 1e-11
+"""Tolerance of the pairs of one shape drawn twice: it must not move at all."""
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """A track that solves a problem, and what it costs."""
+
+    problem: Problem
+    track: Track
+    verdict: Verdict
+
+
+def ranked(problems: list[Problem], keep: int = 6) -> list[Solution]:
+    """Return the solutions of one question, posed in one or in both directions, best first."""
+    found = [s for p in problems for s in _solutions(p, keep)]
+    found.sort(key=_rank)
+    return found
+
+
+def _rank(s: Solution) -> tuple[float, bool]:
+    """Nine digits of the cost; the same direction of both outlines decides a tie."""
+    return round(s.verdict.cost, 9), s.problem.flipped
+
+
+def _solutions(p: Problem, keep: int) -> list[Solution]:
+    tracks = refined(p.first, p.second, candidates(p.first, p.second, p.knots), p.knots, COARSE)
+    best = _judged(p, distinct(tracks, closed=p.first.closed))[:keep]
+    tracks = [s.track for s in best]
+    for _ in range(2):
+        tracks = refined(p.first, p.second, tracks, p.knots, COARSE)
+    return _after_the_film(_judged(p, distinct(tracks, closed=p.first.closed)))
+
+
+def _judged(p: Problem, tracks: list[Track]) -> list[Solution]:
+    verdicts = judged(p.first, p.second, tracks, p.knots)
+    return sorted((Solution(p, t, v) for t, v in zip(tracks, verdicts, strict=True)), key=_rank)
+
+
+def _after_the_film(solutions: list[Solution]) -> list[Solution]:
+    """Worsen those of a close call by what their in-betweens show."""
+    least = solutions[0].verdict.cost
+    close = [s for s in solutions if s.verdict.cost <= CLOSE_CALL * least]
+    if len(close) < 2 or not close[0].problem.first.closed:
+        return solutions
+    seen = [replace(s, verdict=s.verdict.scaled(_film(s))) for s in close]
+    return sorted(seen + solutions[len(close) :], key=_rank)
+
+
+def _film(s: Solution) -> float:
+    g = spread(s.problem.first, s.problem.second, [s.track], s.problem.knots, FILM_NODES)
+    return film_factor(g.z[0], g.y[0])
+
+
+def finished(s: Solution, band: Band = FINE, rounds: int = 2) -> Correspondence:
+    """Return the correspondence of a solution: finely solved, corners joined; exact for one shape drawn twice."""
+    p, track = s.problem, s.track
+    same = same_shape(p.first, p.second, track, p.knots)
+    if same is not None:
+        return settled(p, same, EXACT)
+    for _ in range(rounds):
+        track = refined(p.first, p.second, [track], p.knots, band)[0]
+    knots = with_corners(p.first, p.second, track, p.knots)
+    if len(knots.u) > len(p.knots.u):
+        joined = _through(track, knots.u, knots.v, p.first.closed)
+        track = refined(p.first, p.second, [joined], knots, band)[0]
+    return settled(p, track)
+
+
+def _through(track: Track, u: FloatArray, v: FloatArray, closed: bool) -> Track:
+    """Bend a track so that it goes through knots near it, the rest following evenly."""
+    images = track.images(u, closed=closed)
+    at = np.unique(np.concatenate([_from(track.u, u[0], closed), u]))
+    return Track(at, np.interp(track.images(at, closed=closed), images, v))
+
+
+def _from(shares: FloatArray, start: float, closed: bool) -> FloatArray:
+    return start + np.mod(shares - start, 1.0) if closed else shares
