@@ -15,14 +15,16 @@ MOMENTS = np.array([0.125, 0.25, 0.5, 0.75, 0.875])
 CROSSING = 0.15
 SWELLING = 0.1
 
+FLAT = 1e-6
+"""Area, in squared radii, below which an outline has none."""
+
 
 def film_factor(z: ComplexArray, y: ComplexArray) -> float:
     """Return by how much the film of two closed keyframes, (n,) each, worsens their cost; 1 or more."""
     frames = sketches(z, y, MOMENTS)
     crosses = bool(crossing(frames).any()) and not bool(crossing(np.stack([z, y])).any())
     areas, (low, high) = np.abs(_areas(frames)), sorted(np.abs(_areas(np.stack([z, y]))))
-    tiny = np.finfo(float).tiny
-    swelling = max(0.0, float(areas.max() / max(high, tiny)) - 1, 1 - float(areas.min() / max(low, tiny)))
+    swelling = max(0.0, float(areas.max() / max(high, FLAT)) - 1, 1 - float(areas.min() / max(low, FLAT)))
     return (1 + CROSSING * crosses) * (1 + SWELLING * min(1.0, swelling))
 
 

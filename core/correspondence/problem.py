@@ -13,6 +13,9 @@ from core.geometry.outline import FloatArray, perimeter, signed_area
 FLAT = 1e-6
 """Below this area, in squares of the perimeter, an outline has no inside that could tell its direction."""
 
+INSIDE = 1e-6
+"""Share of the length by which an anchor stays off the ends of an open outline."""
+
 
 @dataclass(frozen=True, eq=False)
 class Problem:
@@ -28,7 +31,7 @@ class Problem:
     flipped : bool
         One ring runs with its outline, the other against it.
     anchors : (k, 2) float array
-        The artist's positions (before, after), as given.
+        The artist's positions (before, after), exactly; without those at the ends of open outlines.
     """
 
     first: Ring
@@ -70,6 +73,8 @@ def _problem(a: FloatArray, b: FloatArray, pairs: FloatArray, flipped: bool, clo
     after = ring(b, closed=closed, backwards=backwards != flipped)
     swapped = shape_key(before) > shape_key(after)
     first, second = turned_together(*((after, before) if swapped else (before, after)))
+    if not closed:
+        pairs = pairs[(pairs[:, 0] > 0) & (pairs[:, 0] < len(a) - 1)]
     columns = pairs[:, ::-1] if swapped else pairs
     knots = _knots(first.shares_of(columns[:, 0]), second.shares_of(columns[:, 1]), closed)
     return Problem(first, second, knots, swapped, flipped, pairs)
@@ -78,8 +83,12 @@ def _problem(a: FloatArray, b: FloatArray, pairs: FloatArray, flipped: bool, clo
 def _knots(u: FloatArray, v: FloatArray, closed: bool) -> Knots:
     if closed:
         return knots_of(u, v, closed=True) if len(u) else FREE
-    inner = (u > 0) & (u < 1)
-    return knots_of(np.append(u[inner], [0.0, 1.0]), np.append(v[inner], [0.0, 1.0]), closed=False)
+    return knots_of(np.append(_inside(u), [0.0, 1.0]), np.append(_inside(v), [0.0, 1.0]), closed=False)
+
+
+def _inside(shares: FloatArray) -> FloatArray:
+    """Hold shares off the ends: an anchor on an edge without length at an end is still not the end."""
+    return np.clip(shares, INSIDE, 1 - INSIDE)
 
 
 def _drawn_backwards(points: FloatArray, closed: bool) -> bool:

@@ -17,6 +17,9 @@ SAME = 0.002
 
 ROUNDS = 3
 
+ONE_POINT = 1e-10
+"""Pairs nearer than this (shares) are a vertex and the vertex right on it."""
+
 
 @dataclass(frozen=True)
 class Similarity:
@@ -43,7 +46,10 @@ def same_shape(before: Ring, after: Ring, track: Track, knots: Knots) -> Track |
     if fit is None or _root_mean_square(fit(p) - q) > PERHAPS:
         return None
     for _ in range(ROUNDS):
-        track = _projected(before, after, track, fit, knots)
+        projected = _projected(before, after, track, fit, knots)
+        if projected is None:
+            return None
+        track = projected
         p, q = before.at(track.u), after.at(track.v)
         if (fit := _fitted(p, q)) is None:
             return None
@@ -62,7 +68,7 @@ def _fitted(p: ComplexArray, q: ComplexArray) -> Similarity | None:
     return Similarity(complex(factor), complex(cq - factor * cp)) if abs(factor) > 0 else None
 
 
-def _projected(before: Ring, after: Ring, track: Track, fit: Similarity, knots: Knots) -> Track:
+def _projected(before: Ring, after: Ring, track: Track, fit: Similarity, knots: Knots) -> Track | None:
     """Pair every vertex of both rings with its nearest point on the other, carried over by `fit`."""
     closed = before.closed
     u = _from(before.vertex_shares, track.u[0], closed)
@@ -71,8 +77,9 @@ def _projected(before: Ring, after: Ring, track: Track, fit: Similarity, knots: 
     u_of_v = _nearest(before, fit.inverse(after.at(v)), np.interp(v, track.v, track.u))
     pairs_u, pairs_v = np.append(u, u_of_v), np.append(v_of_u, v)
     order = np.lexsort((pairs_u, pairs_u + pairs_v))
+    order = order[np.append(True, np.diff((pairs_u + pairs_v)[order]) > ONE_POINT)]
     keep = order[_rising(pairs_u[order]) & _rising(pairs_v[order])]
-    return _closed_up(pairs_u[keep], pairs_v[keep], knots)
+    return _closed_up(pairs_u[keep], pairs_v[keep], knots) if len(keep) else None
 
 
 def _from(shares: FloatArray, start: float, closed: bool) -> FloatArray:
@@ -83,7 +90,7 @@ def _rising(x: FloatArray) -> npt.NDArray[np.bool_]:
     """Whether a number is larger than all before and smaller than all after it."""
     before = np.append(-np.inf, np.maximum.accumulate(x)[:-1])
     after = np.append(np.minimum.accumulate(x[::-1])[::-1][1:], np.inf)
-    return (x > before + 1e-12) & (x < after)
+    return (x > before) & (x < after)
 
 
 def _closed_up(u: FloatArray, v: FloatArray, knots: Knots) -> Track:

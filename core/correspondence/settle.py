@@ -1,6 +1,7 @@
 """Turn a solved track into the pairs of positions that are kept: few, at vertices, anchors exact."""
 
 import numpy as np
+import numpy.typing as npt
 
 from core.correspondence.cyclic import IntArray
 from core.correspondence.pairing import Correspondence
@@ -28,8 +29,9 @@ def settled(problem: Problem, track: Track, tolerance: float = TOLERANCE) -> Cor
     p, q = _positions(problem.first, u, exact == 1), _positions(problem.second, v, exact == 2)
     if problem.swapped:
         p, q = q, p
-    anchored = exact == 3
-    p, q = (np.append(x[~anchored], column) for x, column in zip((p, q), _fixed(problem).T, strict=True))
+    fixed = _fixed(problem)
+    free = (exact != 3) & _agrees(p, q, fixed, problem)
+    p, q = (np.append(x[free], column) for x, column in zip((p, q), fixed.T, strict=True))
     return Correspondence(p, q, problem.counts, problem.first.closed, problem.flipped)
 
 
@@ -39,8 +41,23 @@ def _fixed(problem: Problem) -> FloatArray:
         return problem.anchors
     n, m = problem.counts
     ends = np.array([[0.0, m - 1.0], [n - 1.0, 0.0]] if problem.flipped else [[0.0, 0.0], [n - 1.0, m - 1.0]])
-    inner = (problem.anchors[:, 0] > 0) & (problem.anchors[:, 0] < n - 1)
-    return np.concatenate([problem.anchors[inner], ends])
+    return np.concatenate([problem.anchors, ends])
+
+
+def _agrees(p: FloatArray, q: FloatArray, fixed: FloatArray, problem: Problem) -> npt.NDArray[np.bool_]:
+    """Whether pairs are in order with all that is fixed, told by position: edges without length have one share."""
+    if not len(fixed):
+        return np.ones(len(p), dtype=bool)
+    origin = fixed[0]
+    sides = []
+    for x, at, zero, n, down in zip(
+        (p, q), fixed.T, origin, problem.counts, (False, problem.flipped), strict=True
+    ):
+        away, fixed_away = (zero - x, zero - at) if down else (x - zero, at - zero)
+        if problem.first.closed:
+            away, fixed_away = np.mod(away, n), np.mod(fixed_away, n)
+        sides.append(np.sign(away[:, None] - fixed_away))
+    return np.asarray(((sides[0] == sides[1]) & (sides[0] != 0)).all(axis=1))
 
 
 def _events(problem: Problem, track: Track) -> tuple[FloatArray, FloatArray, IntArray]:
