@@ -7,12 +7,13 @@ The in-betweens are sketches: turning angles and edge lengths between the keyfra
 import numpy as np
 import numpy.typing as npt
 
+from core.correspondence.cyclic import IntArray
 from core.correspondence.ring import ComplexArray
 from core.geometry.outline import FloatArray
 
-MOMENTS = np.array([0.125, 0.25, 0.5, 0.75, 0.875])
+MOMENTS = np.arange(1, 8) / 8
 
-CROSSING = 0.15
+CROSSING = 0.25
 SWELLING = 0.1
 
 FLAT = 1e-6
@@ -55,9 +56,31 @@ def _areas(z: ComplexArray) -> FloatArray:
 
 def crossing(z: ComplexArray) -> npt.NDArray[np.bool_]:
     """Whether closed outlines cross themselves: (T, n) -> (T,). Touching is not crossing."""
-    p, q = z[:, :, None], np.roll(z, -1, axis=1)[:, :, None]
-    d = q - p
-    ahead = (np.conj(d) * (p.swapaxes(1, 2) - p)).imag
-    beyond = np.roll(ahead, -1, axis=2)
-    astride = ahead * beyond < 0
-    return np.asarray((astride & astride.swapaxes(1, 2)).any(axis=(1, 2)))
+    return np.array([_crosses(p, np.roll(p, -1)) for p in z])
+
+
+def _crosses(p: ComplexArray, q: ComplexArray) -> bool:
+    """Whether any two of the segments from `p` to `q` cross; those whose boxes are apart are not compared."""
+    i, j = _overlapping(p.real, q.real)
+    low, high = np.minimum(p.imag, q.imag), np.maximum(p.imag, q.imag)
+    near = (low[i] <= high[j]) & (low[j] <= high[i])
+    i, j = i[near], j[near]
+    return bool((_astride(p[i], q[i], p[j], q[j]) & _astride(p[j], q[j], p[i], q[i])).any())
+
+
+def _overlapping(p: FloatArray, q: FloatArray) -> tuple[IntArray, IntArray]:
+    """Pairs of intervals from `p` to `q` that overlap, each pair once."""
+    low, high = np.minimum(p, q), np.maximum(p, q)
+    order = np.argsort(low, kind="stable")
+    last = np.searchsorted(low[order], high[order], side="right")
+    first = np.arange(1, len(p) + 1)
+    counts = np.maximum(last - first, 0)
+    begin = np.cumsum(counts) - counts
+    later = np.arange(counts.sum()) - np.repeat(begin - first, counts)
+    return order[np.repeat(first - 1, counts)], order[later]
+
+
+def _astride(p: ComplexArray, q: ComplexArray, r: ComplexArray, s: ComplexArray) -> npt.NDArray[np.bool_]:
+    """Whether `r` and `s` lie on different sides of the line through `p` and `q`."""
+    d = np.conj(q - p)
+    return np.asarray((d * (r - p)).imag * (d * (s - p)).imag < 0)

@@ -23,7 +23,7 @@ def settled(problem: Problem, track: Track, tolerance: float = TOLERANCE) -> Cor
     Only vertices are paired, with whatever lies opposite: so aligning the outlines adds no other points, and a
     straight edge moves evenly.
     """
-    u, v, exact = _events(problem, track)
+    u, v, exact = events(problem, track)
     keep = _enough(u, v, exact, tolerance)
     u, v, exact = u[keep], v[keep], exact[keep]
     p, q = _positions(problem.first, u, exact == 1), _positions(problem.second, v, exact == 2)
@@ -60,8 +60,11 @@ def _agrees(p: FloatArray, q: FloatArray, fixed: FloatArray, problem: Problem) -
     return np.asarray(((sides[0] == sides[1]) & (sides[0] != 0)).all(axis=1))
 
 
-def _events(problem: Problem, track: Track) -> tuple[FloatArray, FloatArray, IntArray]:
-    """Pairs along one round of the track: vertices of the first (1) and of the second (2) ring, knots (3)."""
+def events(problem: Problem, track: Track) -> tuple[FloatArray, FloatArray, IntArray]:
+    """Return the shares (k,), (k,) of the pairs along one round of a track, and what each is.
+
+    Vertices of the first ring (1), of the second (2) with what lies opposite, and knots (3).
+    """
     closed = problem.first.closed
     u = _within(problem.first.vertex_shares, track.u[0], closed)
     v = _within(problem.second.vertex_shares, track.v[0], closed)

@@ -12,14 +12,14 @@ from core.correspondence.pairing import Correspondence
 from core.correspondence.problem import Problem
 from core.correspondence.refine import COARSE, FINE, Band, refined
 from core.correspondence.same import same_shape
-from core.correspondence.settle import settled
-from core.correspondence.track import Track, spread
+from core.correspondence.settle import events, settled
+from core.correspondence.track import Track
 from core.geometry.outline import FloatArray
 
 CLOSE_CALL = 1.3
 """Candidates that cost at most so many times the least are told apart by their films."""
 
-FILM_NODES = 128
+MOST_FILMS = 4
 
 EXACT = 1e-11
 """Tolerance of the pairs of one shape drawn twice: it must not move at all."""
@@ -27,18 +27,31 @@ EXACT = 1e-11
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """A track that solves a problem, and what it costs."""
+    """A track that solves a problem, and what it costs.
+
+    Attributes
+    ----------
+    problem : Problem
+    track : Track
+    verdict : Verdict
+    fine : bool
+        Whether the track has been through the fine pass.
+    """
 
     problem: Problem
     track: Track
     verdict: Verdict
+    fine: bool = False
 
 
 def ranked(problems: list[Problem], keep: int = 6) -> list[Solution]:
     """Return the solutions of one question, posed in one or in both directions, best first."""
-    found = [s for p in problems for s in _solutions(p, keep)]
-    found.sort(key=_rank)
-    return found
+    found = sorted((s for p in problems for s in _solutions(p, keep)), key=_rank)
+    close = [s for s in found[:MOST_FILMS] if s.verdict.cost <= CLOSE_CALL * found[0].verdict.cost]
+    if len(close) < 2 or not close[0].problem.first.closed:
+        return found
+    seen = [_after_the_film(s) for p in problems for s in _fine(p, [s for s in close if s.problem is p], FINE, 2)]
+    return sorted(seen + found[len(close) :], key=_rank)
 
 
 def _rank(s: Solution) -> tuple[float, bool]:
@@ -52,7 +65,7 @@ def _solutions(p: Problem, keep: int) -> list[Solution]:
     tracks = [s.track for s in best]
     for _ in range(2):
         tracks = refined(p.first, p.second, tracks, p.knots, COARSE)
-    return _after_the_film(_judged(p, distinct(tracks, closed=p.first.closed)))
+    return _judged(p, distinct(tracks, closed=p.first.closed))
 
 
 def _judged(p: Problem, tracks: list[Track]) -> list[Solution]:
@@ -60,29 +73,27 @@ def _judged(p: Problem, tracks: list[Track]) -> list[Solution]:
     return sorted((Solution(p, t, v) for t, v in zip(tracks, verdicts, strict=True)), key=_rank)
 
 
-def _after_the_film(solutions: list[Solution]) -> list[Solution]:
-    """Worsen those of a close call by what their in-betweens show."""
-    least = solutions[0].verdict.cost
-    close = [s for s in solutions if s.verdict.cost <= CLOSE_CALL * least]
-    if len(close) < 2 or not close[0].problem.first.closed:
-        return solutions
-    seen = [replace(s, verdict=s.verdict.scaled(_film(s))) for s in close]
-    return sorted(seen + solutions[len(close) :], key=_rank)
+def _fine(p: Problem, solutions: list[Solution], band: Band, rounds: int) -> list[Solution]:
+    """Solve again on many nodes, near the tracks."""
+    tracks = [s.track for s in solutions]
+    for _ in range(rounds if tracks else 0):
+        tracks = refined(p.first, p.second, tracks, p.knots, band)
+    return [replace(s, track=t, fine=True) for s, t in zip(solutions, tracks, strict=True)]
 
 
-def _film(s: Solution) -> float:
-    g = spread(s.problem.first, s.problem.second, [s.track], s.problem.knots, FILM_NODES)
-    return film_factor(g.z[0], g.y[0])
+def _after_the_film(s: Solution) -> Solution:
+    """Worsen a solution by what its in-betweens, with every vertex, show."""
+    u, v, _ = events(s.problem, s.track)
+    return replace(s, verdict=s.verdict.scaled(film_factor(s.problem.first.at(u), s.problem.second.at(v))))
 
 
 def finished(s: Solution, band: Band = FINE, rounds: int = 2) -> Correspondence:
     """Return the correspondence of a solution: finely solved, corners joined; exact for one shape drawn twice."""
-    p, track = s.problem, s.track
-    same = same_shape(p.first, p.second, track, p.knots)
+    p = s.problem
+    same = same_shape(p.first, p.second, s.track, p.knots)
     if same is not None:
         return settled(p, same, EXACT)
-    for _ in range(rounds):
-        track = refined(p.first, p.second, [track], p.knots, band)[0]
+    track = s.track if s.fine else _fine(p, [s], band, rounds)[0].track
     knots = with_corners(p.first, p.second, track, p.knots)
     if len(knots.u) > len(p.knots.u):
         joined = _through(track, knots.u, knots.v, p.first.closed)
