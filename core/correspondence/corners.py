@@ -102,20 +102,22 @@ def _mutual(p: Corners, q: Corners, track: Track, closed: bool) -> tuple[IntArra
 def _in_order(u: FloatArray, v: FloatArray, fixed: int, track: Track, closed: bool) -> IntArray:
     """Indices of the pairs that rise together without a sudden change of speed; the first `fixed` always do."""
     images = track.images(u, closed=closed)
-    v = images + (v - images - np.rint(v - images) if closed else v - images)
+    gap = v - images
+    nearest = np.argsort(np.abs(gap - np.rint(gap) if closed else gap)[fixed:], kind="stable") + fixed
     chosen = list(range(fixed))
-    nearest = np.argsort(np.abs(v - images)[fixed:], kind="stable") + fixed
     for k in nearest:
-        if all(_compatible(u[k] - u[c], v[k] - v[c], images[k] - images[c], closed) for c in chosen):
+        if all(_compatible(v[k] - v[c], images[k] - images[c], closed) for c in chosen):
             chosen.append(int(k))
     return np.array(chosen, dtype=np.intp)
 
 
-def _compatible(du: float, dv: float, expected: float, closed: bool) -> bool:
+def _compatible(length: float, expected: float, closed: bool) -> bool:
+    """Whether the length between two pairs, and that round the other side, are near what the track has."""
     if closed:
-        rounds = np.rint(expected)
-        du, dv, expected = du - np.rint(du), dv - rounds, expected - rounds
-    if du * dv <= 0:
-        return False
-    stretch = abs(dv / expected) if expected else np.inf
-    return bool(1 / STEEPEST <= stretch <= STEEPEST)
+        length, expected = float(np.mod(length, 1.0)), float(np.mod(expected, 1.0))
+        return _near(length, expected) and _near(1 - length, 1 - expected)
+    return length * expected > 0 and _near(abs(length), abs(expected))
+
+
+def _near(length: float, expected: float) -> bool:
+    return expected < STEEPEST * length and length < STEEPEST * expected

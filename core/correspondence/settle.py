@@ -1,5 +1,7 @@
 """Turn a solved track into the pairs of positions that are kept: few, at vertices, anchors exact."""
 
+from enum import IntEnum
+
 import numpy as np
 import numpy.typing as npt
 
@@ -17,20 +19,33 @@ CLOSEST = 1e-7
 """Shares nearer than this are one point; strictly rising pairs must not depend on rounding."""
 
 
+class Kind(IntEnum):
+    """What a pair of positions is told by."""
+
+    FIRST = 1
+    """A vertex of the first ring, and what lies opposite."""
+    SECOND = 2
+    BOTH = 3
+    """Two vertices that meet."""
+    KNOT = 4
+    """Fixed by the artist, or an end."""
+
+
 def settled(problem: Problem, track: Track, tolerance: float = TOLERANCE) -> Correspondence:
     """Return the correspondence along a track, told by pairs of which one is a vertex.
 
     Only vertices are paired, with whatever lies opposite: so aligning the outlines adds no other points, and a
     straight edge moves evenly.
     """
-    u, v, exact = events(problem, track)
-    keep = _enough(u, v, exact, tolerance)
-    u, v, exact = u[keep], v[keep], exact[keep]
-    p, q = _positions(problem.first, u, exact == 1), _positions(problem.second, v, exact == 2)
+    u, v, kind = events(problem, track)
+    keep = _enough(u, v, kind >= Kind.BOTH, tolerance)
+    u, v, kind = u[keep], v[keep], kind[keep]
+    p = _positions(problem.first, u, (kind == Kind.FIRST) | (kind == Kind.BOTH))
+    q = _positions(problem.second, v, (kind == Kind.SECOND) | (kind == Kind.BOTH))
     if problem.swapped:
         p, q = q, p
     fixed = _fixed(problem)
-    free = (exact != 3) & _agrees(p, q, fixed, problem)
+    free = (kind != Kind.KNOT) & _agrees(p, q, fixed, problem)
     p, q = (np.append(x[free], column) for x, column in zip((p, q), fixed.T, strict=True))
     return Correspondence(p, q, problem.counts, problem.first.closed, problem.flipped)
 
@@ -61,20 +76,17 @@ def _agrees(p: FloatArray, q: FloatArray, fixed: FloatArray, problem: Problem) -
 
 
 def events(problem: Problem, track: Track) -> tuple[FloatArray, FloatArray, IntArray]:
-    """Return the shares (k,), (k,) of the pairs along one round of a track, and what each is.
-
-    Vertices of the first ring (1), of the second (2) with what lies opposite, and knots (3).
-    """
+    """Return the shares (k,), (k,) of the pairs along one round of a track, and the `Kind` of each."""
     closed = problem.first.closed
     u = _within(problem.first.vertex_shares, track.u[0], closed)
     v = _within(problem.second.vertex_shares, track.v[0], closed)
     knot_u, knot_v = (x[:-1] if closed else x for x in (problem.knots.u, problem.knots.v))
     all_u = np.concatenate([u, np.interp(v, track.v, track.u), knot_u])
     all_v = np.concatenate([np.interp(u, track.u, track.v), v, knot_v])
-    kind = np.repeat([1, 2, 3], [len(u), len(v), len(knot_u)])
+    kind = np.repeat([Kind.FIRST, Kind.SECOND, Kind.KNOT], [len(u), len(v), len(knot_u)]).astype(np.intp)
     order = np.lexsort((-kind, all_u + all_v))
     all_u, all_v, kind = all_u[order], all_v[order], kind[order]
-    clear = _clear(all_u, all_v, kind, closed)
+    clear, kind = _clear(all_u, all_v, kind, closed)
     return all_u[clear], all_v[clear], kind[clear]
 
 
@@ -82,23 +94,30 @@ def _within(shares: FloatArray, start: float, closed: bool) -> FloatArray:
     return start + np.mod(shares - start, 1.0) if closed else shares
 
 
-def _clear(u: FloatArray, v: FloatArray, kind: IntArray, closed: bool) -> IntArray:
-    """Indices of pairs far enough from the one before and from every knot; knots always stay."""
-    knots = kind == 3
-    free = ~knots
+def _clear(u: FloatArray, v: FloatArray, kind: IntArray, closed: bool) -> tuple[IntArray, IntArray]:
+    """Indices of the pairs far enough from the one before and from every knot, and their kinds; knots always stay.
+
+    A vertex dropped because one of the other outline is there makes that one a meeting of both.
+    """
+    knots = kind == Kind.KNOT
+    gaps = [np.diff(x, prepend=x[-1] - 1 if closed else -1.0) for x in (u, v)]
+    free = ~knots & (gaps[0] > CLOSEST) & (gaps[1] > CLOSEST)
+    meeting = (gaps[0] <= CLOSEST) & (gaps[1] <= CLOSEST) & (kind + np.roll(kind, 1) == Kind.BOTH)
     for x in (u, v):
-        gap = np.diff(x, prepend=x[-1] - 1 if closed else -1.0)
-        free &= gap > CLOSEST
         for k in np.flatnonzero(knots):
             beside = np.abs(x - x[k])
             free &= (np.minimum(beside, 1 - beside) if closed else beside) > CLOSEST
+    met = np.where(np.roll(meeting, -1) & ~knots, Kind.BOTH, kind)
     clear = np.flatnonzero(knots | free)
-    return clear if len(clear) else np.zeros(1, dtype=np.intp)
+    return clear if len(clear) else np.zeros(1, dtype=np.intp), met
 
 
-def _enough(u: FloatArray, v: FloatArray, kind: IntArray, tolerance: float) -> IntArray:
-    """Choose the fewest pairs between which even lengths stay within `tolerance` (Douglas and Peucker 1973)."""
-    chosen = kind == 3
+def _enough(u: FloatArray, v: FloatArray, wanted: npt.NDArray[np.bool_], tolerance: float) -> IntArray:
+    """Choose the wanted pairs and the fewest others between which even lengths stay within `tolerance`.
+
+    Source: Douglas and Peucker 1973.
+    """
+    chosen = wanted.copy()
     chosen[[0, -1]] = True
     while True:
         at = np.flatnonzero(chosen)
