@@ -15,6 +15,9 @@ TURN = 0.05
 TURN_OF_POOR_FIT = 4.0
 """A poor fit is no evidence for a big turn."""
 
+STILL = 2e-3
+"""Added to the misfit before it weighs the turn: where all fits are good, the one that turns least is wanted."""
+
 FLOOR = 2e-4
 """Below this a residual is sampling, not shape; else noise would choose among the turns of a square."""
 
@@ -58,7 +61,7 @@ def judged(before: Ring, after: Ring, tracks: list[Track], knots: Knots, nodes: 
     misfit = f.residuals[-1] + FLOOR / 2
     bend = TANGENTS * _tangents_left(g, f) + FLOOR / 2
     fit = misfit + bend
-    turn = fit * (TURN + TURN_OF_POOR_FIT * fit) * f.whole_turn**2
+    turn = (fit + STILL) * (TURN + TURN_OF_POOR_FIT * fit) * f.whole_turn**2
     return [Verdict(float(s), float(b), float(t)) for s, b, t in zip(misfit, bend, turn, strict=True)]
 
 

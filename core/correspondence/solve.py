@@ -21,6 +21,8 @@ CLOSE_CALL = 1.3
 
 MOST_FILMS = 4
 
+JUDGED_NODES = 128
+
 EXACT = 1e-11
 """Tolerance of the pairs of one shape drawn twice: it must not move at all."""
 
@@ -50,8 +52,17 @@ def ranked(problems: list[Problem], keep: int = 6) -> list[Solution]:
     close = [s for s in found[:MOST_FILMS] if s.verdict.cost <= CLOSE_CALL * found[0].verdict.cost]
     if len(close) < 2 or not close[0].problem.first.closed:
         return found
-    seen = [_after_the_film(s) for p in problems for s in _fine(p, [s for s in close if s.problem is p], FINE, 2)]
+    seen = [_after_the_film(s) for p in problems for s in _judged_finely(p, [s for s in close if s.problem is p])]
     return sorted(seen + found[len(close) :], key=_rank)
+
+
+def _judged_finely(p: Problem, close: list[Solution]) -> list[Solution]:
+    """Solve and judge again on many nodes: on few, where they happen to lie beside the corners decides."""
+    if not close:
+        return []
+    fine = _fine(p, close, FINE, 2)
+    verdicts = judged(p.first, p.second, [s.track for s in fine], p.knots, JUDGED_NODES)
+    return [replace(s, verdict=v) for s, v in zip(fine, verdicts, strict=True)]
 
 
 def _rank(s: Solution) -> tuple[float, bool]:
