@@ -58,11 +58,15 @@ def judged(before: Ring, after: Ring, tracks: list[Track], knots: Knots, nodes: 
     """
     g = spread(before, after, tracks, knots, nodes)
     f = frames(g)
-    misfit = f.residuals[-1] + FLOOR / 2
-    bend = TANGENTS * _tangents_left(g, f) + FLOOR / 2
-    fit = misfit + bend
-    turn = (fit + STILL) * (TURN + TURN_OF_POOR_FIT * fit) * f.whole_turn**2
-    return [Verdict(float(s), float(b), float(t)) for s, b, t in zip(misfit, bend, turn, strict=True)]
+    columns = zip(f.residuals[-1], TANGENTS * _tangents_left(g, f), f.whole_turn, strict=True)
+    return [verdict(float(stretch), float(bend), float(turn)) for stretch, bend, turn in columns]
+
+
+def verdict(stretch: float, bend: float, whole_turn: float) -> Verdict:
+    """Return the verdict on a misfit and a turn of the whole (radians)."""
+    stretch, bend = stretch + FLOOR / 2, bend + FLOOR / 2
+    fit = stretch + bend
+    return Verdict(stretch, bend, (fit + STILL) * (TURN + TURN_OF_POOR_FIT * fit) * whole_turn**2)
 
 
 def _tangents_left(g: Grid, f: Frames) -> FloatArray:

@@ -56,6 +56,12 @@ def same_shape(before: Ring, after: Ring, track: Track, knots: Knots) -> Track |
     return track if _root_mean_square(fit(p) - q) <= SAME else None
 
 
+def whole_turn(before: Ring, after: Ring, track: Track) -> float:
+    """Angle of the best rotation along a track, in radians."""
+    fit = _fitted(before.at(track.u), after.at(track.v))
+    return float(np.angle(fit.factor)) if fit else 0.0
+
+
 def _root_mean_square(z: ComplexArray) -> float:
     return float(np.sqrt((np.abs(z) ** 2).mean()))
 

@@ -7,17 +7,20 @@ import numpy as np
 from core.correspondence.candidates import candidates, distinct
 from core.correspondence.corners import with_corners
 from core.correspondence.film import film_factor
-from core.correspondence.judge import Verdict, judged
+from core.correspondence.judge import Verdict, judged, verdict
 from core.correspondence.pairing import Correspondence
 from core.correspondence.problem import Problem
 from core.correspondence.refine import COARSE, FINE, Band, refined
-from core.correspondence.same import same_shape
+from core.correspondence.same import same_shape, whole_turn
 from core.correspondence.settle import events, settled
 from core.correspondence.track import Track
 from core.geometry.outline import FloatArray
 
 CLOSE_CALL = 1.3
 """Candidates that cost at most so many times the least are told apart by their films."""
+
+NOISE = 1e-3
+"""Candidates whose costs differ by less are told apart so, too: on few nodes it is where these happen to lie."""
 
 MOST_FILMS = 4
 
@@ -49,7 +52,8 @@ class Solution:
 def ranked(problems: list[Problem], keep: int = 6) -> list[Solution]:
     """Return the solutions of one question, posed in one or in both directions, best first."""
     found = sorted((s for p in problems for s in _solutions(p, keep)), key=_rank)
-    close = [s for s in found[:MOST_FILMS] if s.verdict.cost <= CLOSE_CALL * found[0].verdict.cost]
+    limit = CLOSE_CALL * found[0].verdict.cost + NOISE
+    close = [s for s in found[:MOST_FILMS] if s.verdict.cost <= limit]
     if len(close) < 2 or not close[0].problem.first.closed:
         return found
     seen = [_after_the_film(s) for p in problems for s in _judged_finely(p, [s for s in close if s.problem is p])]
@@ -62,7 +66,14 @@ def _judged_finely(p: Problem, close: list[Solution]) -> list[Solution]:
         return []
     fine = _fine(p, close, FINE, 2)
     verdicts = judged(p.first, p.second, [s.track for s in fine], p.knots, JUDGED_NODES)
-    return [replace(s, verdict=v) for s, v in zip(fine, verdicts, strict=True)]
+    return [_exactly(replace(s, verdict=v)) for s, v in zip(fine, verdicts, strict=True)]
+
+
+def _exactly(s: Solution) -> Solution:
+    """One shape drawn twice has no misfit; only its turn counts."""
+    p = s.problem
+    same = same_shape(p.first, p.second, s.track, p.knots)
+    return s if same is None else replace(s, verdict=verdict(0.0, 0.0, whole_turn(p.first, p.second, same)))
 
 
 def _rank(s: Solution) -> tuple[float, bool]:
