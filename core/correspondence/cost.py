@@ -1,7 +1,6 @@
 """What it costs that a piece of one outline becomes a piece of the other."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -114,9 +113,10 @@ def step_costs(
     rows = node_costs.shape[1]
     costs = np.full((len(STEPS), rows, len(node_costs), 1, 2 * half + 1), BARRED, dtype=np.float32)
     nodes = node_costs.astype(np.float32)
+    chords = _Chords(g, half, headings)
     for k, (di, dj) in enumerate(STEPS):
         if di < rows:
-            along = _chord_costs(g, (di, dj), half, weights, headings, _mean_along(nodes, di, dj))
+            along = chords.costs(di, dj, weights, _mean_along(nodes, di, dj))
             costs[k, di:, :, 0] = np.swapaxes(along, 0, 1)
             costs[k, _jumping(g.knots, di, rows)] = BARRED
     aside = np.flatnonzero(np.arange(2 * half + 1) != half)
@@ -136,35 +136,48 @@ def _mean_along(nodes: Float32Array, di: int, dj: int) -> Float32Array:
     return np.asarray(np.float32(0.25) * (end + start) + np.float32(0.5) * half_way)
 
 
-def _chord_costs(
-    g: Grid, step: tuple[int, int], half: int, weights: Weights, headings: ComplexArray | None, along: Float32Array
-) -> Float32Array:
-    """Add the directions and lengths of the chords of one kind of step, rows from its di on."""
-    (di, dj), rows, j = step, g.rows()[step[0] :], g.neighbours(half)[step[0] :]
-    chord_a, la = _chords(g.z, g.u, di, g.closed)
-    chord_b, lb = _chords(g.y, g.v, dj, g.closed)
-    here, length_a, length_b = np.conj(chord_a[:, rows, None]), la[:, rows, None], lb[:, j]
-    if headings is None:
-        alike = (here * chord_b[:, j]).real
-    else:
-        e = np.conj(headings.astype(np.complex64))
-        alike = np.float32(0.5) * (
-            (here * e[:, rows, None] * chord_b[:, j]).real + (here * (e * chord_b)[:, j]).real
-        )
-    whole = length_a + length_b
-    uneven = (length_a - length_b) / whole
-    costs = along + np.float32(weights.heading) * (1 - alike) + np.float32(4 * weights.stretch) * uneven * uneven
-    return np.asarray(costs * whole * np.float32(0.5))
+class _Chords:
+    """Directions and lengths of the chords of all steps on both sides; steps of equal length share theirs."""
+
+    def __init__(self, g: Grid, half: int, headings: ComplexArray | None) -> None:
+        rows, j = g.rows(), g.neighbours(half)
+        e = np.ones_like(g.z) if headings is None else headings
+        self.before: dict[int, tuple[Float32Array, Float32Array]] = {}
+        self.after: dict[int, tuple[Float32Array, Float32Array]] = {}
+        for d in sorted({d for step in STEPS for d in step if d < len(rows)}):
+            chord, length = _chords(g.z, g.u, d, g.closed)
+            self.before[d] = 0.5 * _parts(chord * e, chord)[:, :, rows], length[:, rows, None]
+            chord, length = _chords(g.y, g.v, d, g.closed)
+            self.after[d] = _parts(chord, chord * np.conj(e))[:, :, j], length[:, j]
+
+    def costs(self, di: int, dj: int, weights: Weights, along: Float32Array) -> Float32Array:
+        """Add what the chords of one kind of step cost to the node costs `along` it, rows from `di` on."""
+        (chord_a, length_a), (chord_b, length_b) = self.before[di], self.after[dj]
+        length_a, length_b = length_a[:, di:], length_b[:, di:]
+        whole = length_a + length_b
+        uneven = (length_a - length_b) / whole
+        costs = along + np.float32(4 * weights.stretch) * uneven * uneven
+        if weights.heading:
+            alike = np.einsum("cbr,cbrw->brw", chord_a[:, :, di:], chord_b[:, :, di:])
+            costs += np.float32(weights.heading) * (1 - alike)
+        return np.asarray(costs * whole * np.float32(0.5))
 
 
-def _chords(z: ComplexArray, shares: FloatArray, step: int, closed: bool) -> tuple[Any, Float32Array]:
-    """Unit chords (complex64) that end at every node, `step` nodes long, and their shares of the length."""
-    chord = z - np.roll(z, step, axis=1)
-    length = shares[:, : z.shape[1]] - np.roll(shares[:, : z.shape[1]], step, axis=1)
-    length = np.mod(length, 1.0) if closed else np.abs(length)  # an open ring's first few are never used
+def _parts(*vectors: ComplexArray) -> Float32Array:
+    """Real and imaginary parts one after the other: products of such are sums of scalar products."""
+    return np.stack([part for v in vectors for part in (v.real, v.imag)]).astype(np.float32)
+
+
+def _chords(z: ComplexArray, shares: FloatArray, step: int, closed: bool) -> tuple[ComplexArray, Float32Array]:
+    """Unit chords that end at every node, `step` nodes long, and their shares of the length."""
+    m = z.shape[1]
+    start = (np.arange(m) - step) % m
+    chord = z - z[:, start]
+    length = shares[:, :m] - shares[:, start]
+    length = length + (length <= 0) if closed else np.abs(length)  # an open ring's first few are never used
     size = np.abs(chord)
     unit = np.divide(chord, size, out=np.zeros_like(chord), where=size > 0)
-    return unit.astype(np.complex64), np.maximum(length, 1e-12).astype(np.float32)
+    return unit, np.maximum(length, 1e-12).astype(np.float32)
 
 
 def _jumping(knots: IntArray, di: int, rows: int) -> IntArray:

@@ -91,26 +91,21 @@ def trace(
         The cells of every path, from row 0 on.
     """
     candidate, start = chosen
-    shared = np.zeros_like(start) if costs.shape[3] == 1 else start
+    shared = start * (costs.shape[3] > 1)
+    stride, padded = table[0].size, table.shape[-1]
     half = costs.shape[-1] // 2
     di, dj = np.array(STEPS).T
-    row = np.full(len(candidate), costs.shape[1] - 1)
-    offset = np.array(offsets)
+    back, change = -di * stride + di - dj, di - dj
+    flat = table.reshape(-1)
+    row, offset = np.full(len(candidate), costs.shape[1] - 1), np.array(offsets)
+    lane = (candidate * table.shape[2] + start) * padded + half + MARGIN
     visited = [(row, offset)]
-    while (row > 0).any():
-        came = table[
-            (row[:, None] - di + REACH),
-            candidate[:, None],
-            start[:, None],
-            offset[:, None] + half + MARGIN + di - dj,
-        ]
-        step = (came + costs[:, row, candidate, shared, offset + half].T).argmin(axis=1)
+    while row.any():
+        at = (row + REACH) * stride + lane + offset
+        came = flat.take(at[:, None] + back) + costs[:, row, candidate, shared, offset + half].T
+        step = came.argmin(axis=1)
         moving = row > 0
-        row, offset = (
-            np.where(moving, row - di[step], row),
-            np.where(moving, offset + di[step] - dj[step], offset),
-        )
-        row = np.maximum(row, 0)
+        row, offset = np.maximum(row - di[step], 0), offset + change[step] * moving
         visited.append((row, offset))
     rows, columns = (np.array(x)[::-1] for x in zip(*visited, strict=True))
     return [_one_path(rows[:, p], columns[:, p]) for p in range(rows.shape[1])]
