@@ -17,6 +17,9 @@ SAME = 0.002
 
 ROUNDS = 3
 
+SAME_VERTEX = 1e-7
+"""Distance (in radii) of two vertices that are one, and turn (in radians) of one that is none."""
+
 ONE_POINT = 1e-10
 """Pairs nearer than this (shares) are a vertex and the vertex right on it."""
 
@@ -40,6 +43,9 @@ class Similarity:
 
 def same_shape(before: Ring, after: Ring, track: Track, knots: Knots) -> Track | None:
     """Return the track that leaves a shape unmoved that was drawn twice, or None if these are two shapes."""
+    exact = _vertex_by_vertex(before, after, track, knots)
+    if exact is not None:
+        return exact
     at = np.linspace(track.u[0], track.u[0] + 1, 128, endpoint=False) if before.closed else np.linspace(0, 1, 128)
     p, q = before.at(at), after.at(track.images(at, closed=before.closed))
     fit = _fitted(p, q)
@@ -54,6 +60,49 @@ def same_shape(before: Ring, after: Ring, track: Track, knots: Knots) -> Track |
         if (fit := _fitted(p, q)) is None:
             return None
     return track if _root_mean_square(fit(p) - q) <= SAME else None
+
+
+def _vertex_by_vertex(before: Ring, after: Ring, track: Track, knots: Knots) -> Track | None:
+    """The track through the vertices of one polygon drawn twice, whatever lies between them on straight edges.
+
+    Sliding to the nearest points takes for ever on what is nearly a circle; this does not slide.
+    """
+    u, v = _bent_vertices(before), _bent_vertices(after)
+    if len(u) != len(v) or len(u) < 2:
+        return None
+    p, q = before.at(u), after.at(v)
+    for shift in _shifts(u, v, track) if before.closed else (0,):
+        fit = _fitted(p, np.roll(q, -shift))
+        if fit is not None and np.abs(fit(p) - np.roll(q, -shift)).max() <= SAME_VERTEX:
+            return _closed_up(*_unrolled(u, np.roll(v, -shift), track, before.closed), knots)
+    return None
+
+
+def _bent_vertices(r: Ring) -> FloatArray:
+    """Shares of the vertices at which the outline turns, and of the ends of an open one."""
+    d = np.diff(r.z)
+    keep = np.abs(d) > SAME_VERTEX
+    at, d = r.shares[:-1][keep], d[keep] / np.abs(d[keep])
+    turned = np.abs((d * np.conj(np.roll(d, 1))).imag) > SAME_VERTEX
+    turned |= (d * np.conj(np.roll(d, 1))).real < 0
+    return at[turned] if r.closed else np.append(at[turned | (at == 0)], 1.0)
+
+
+def _shifts(u: FloatArray, v: FloatArray, track: Track) -> tuple[int, ...]:
+    """The vertex after that lies nearest to the image of the first one before, and those beside it."""
+    gap = v - track.images(u[:1], closed=True)
+    nearest = int(np.abs(gap - np.rint(gap)).argmin())
+    return nearest, nearest - 1, nearest + 1
+
+
+def _unrolled(u: FloatArray, v: FloatArray, track: Track, closed: bool) -> tuple[FloatArray, FloatArray]:
+    if not closed:
+        return u, v
+    v = v[0] + np.mod(v - v[0], 1.0)
+    v = v + np.rint(track.images(u[:1], closed=True)[0] - v[0])
+    rounds = np.floor(u - track.u[0])
+    order = np.argsort(u - rounds)
+    return (u - rounds)[order], (v - rounds)[order]
 
 
 def whole_turn(before: Ring, after: Ring, track: Track) -> float:
