@@ -13,8 +13,8 @@ from core.correspondence.cost import Grid, square_distances
 from core.correspondence.ring import ComplexArray
 from core.geometry.outline import FloatArray
 
-REACHES = (np.inf, 0.5)
-"""Widths of the neighbourhoods, in root-mean-square radii."""
+REACH = 0.5
+"""Width of a neighbourhood, in root-mean-square radii; the other scale is the whole."""
 
 RESIDUAL_FLOOR = 1e-3
 """Added to the residuals, else one lucky frame would take all the weight."""
@@ -57,14 +57,14 @@ class Frames:
         return np.asarray(np.angle(self.headings[0, :, 0]))
 
 
-def frames(g: Grid) -> Frames:
-    """Return the frames of a grid's candidates, node i corresponding to node i."""
+def frames(g: Grid, reach: float = REACH) -> Frames:
+    """Return the frames of a grid's candidates, of the whole and within `reach`; node i is matched to i."""
     z, y = g.z, g.y
     apart = np.maximum(
         square_distances(z[:, :, None], z[:, None, :]), square_distances(y[:, :, None], y[:, None, :])
     )
     lengths = _node_weights(g)
-    kernels = [lengths[:, None, :] * _falloff(apart, reach) for reach in REACHES]
+    kernels = [lengths[:, None, :] * _falloff(apart, r) for r in (np.inf, reach)]
     kernels = [k / k.sum(axis=2, keepdims=True) for k in kernels]
     z, y = _same_size(z, y, kernels[-1], lengths)
     fits = [_fit(z, y, k) for k in kernels]

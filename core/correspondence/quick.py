@@ -11,8 +11,8 @@ from core.correspondence.solve import Solution
 from core.correspondence.track import Knots, Track
 from core.geometry.outline import FloatArray
 
-QUICK = Band(nodes=64, width=16, starts=4)
-QUICK_FINE = Band(nodes=128, width=6, starts=2)
+QUICK = Band(nodes=64, width=16, starts=4, reach=0.5)
+QUICK_FINE = Band(nodes=128, width=6, starts=2, reach=0.4)
 
 
 def quick_solution(posed: list[Problem], near: Correspondence | None) -> Solution:

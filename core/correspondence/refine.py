@@ -23,21 +23,32 @@ BENDS = 0.02
 
 @dataclass(frozen=True)
 class Band:
-    """How finely and how far from the guess to look: nodes, and offsets in nodes of paths and of their starts."""
+    """How finely and how far from the guess to look.
+
+    Attributes
+    ----------
+    nodes : int
+    width, starts : int
+        Largest offsets of paths and of their starts, in nodes.
+    reach : float
+        Width of the local frames in radii. Narrower ones follow a bend more closely, but lose their way where the
+        guess is not near yet.
+    """
 
     nodes: int
     width: int
     starts: int
+    reach: float
 
 
-COARSE = Band(nodes=64, width=16, starts=4)
-FINE = Band(nodes=256, width=8, starts=3)
+COARSE = Band(nodes=64, width=16, starts=4, reach=0.5)
+FINE = Band(nodes=256, width=8, starts=3, reach=0.4)
 
 
 def refined(before: Ring, after: Ring, tracks: list[Track], knots: Knots, band: Band) -> list[Track]:
     """Return every track solved again in the frames that it implies."""
     g = spread(before, after, tracks, knots, band.nodes)
-    costs = step_costs(g, _node_costs(g, f := frames(g), band.width + MARGIN), REFINING, f.heading)
+    costs = step_costs(g, _node_costs(g, f := frames(g, band.reach), band.width + MARGIN), REFINING, f.heading)
     starts = np.zeros(1, dtype=np.intp) if knots else np.arange(-band.starts, band.starts + 1)
     table = sweep(costs, starts)
     best = ends(table, starts).argmin(axis=1)
