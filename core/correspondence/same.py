@@ -18,7 +18,10 @@ SAME = 0.002
 ROUNDS = 3
 
 SAME_VERTEX = 1e-7
-"""Distance (in radii) of two vertices that are one, and turn (in radians) of one that is none."""
+"""Distance (in radii) of two vertices that are one."""
+
+ON_LINE = 1e-8
+"""Distance (in radii) from the line between its neighbours at which a vertex is none."""
 
 ONE_POINT = 1e-10
 """Pairs nearer than this (shares) are a vertex and the vertex right on it."""
@@ -81,10 +84,13 @@ def _vertex_by_vertex(before: Ring, after: Ring, track: Track, knots: Knots) -> 
 def _bent_vertices(r: Ring) -> FloatArray:
     """Shares of the vertices at which the outline turns, and of the ends of an open one."""
     d = np.diff(r.z)
-    keep = np.abs(d) > SAME_VERTEX
-    at, d = r.shares[:-1][keep], d[keep] / np.abs(d[keep])
-    turned = np.abs((d * np.conj(np.roll(d, 1))).imag) > SAME_VERTEX
-    turned |= (d * np.conj(np.roll(d, 1))).real < 0
+    keep = np.abs(d) > ON_LINE
+    at, d = r.shares[:-1][keep], d[keep]
+    before = np.roll(d, 1)
+    product = d * np.conj(before)
+    # distance of the vertex from the line between its neighbours: short edges have no direction to speak of
+    off = np.abs(product.imag) > ON_LINE * np.abs(d + before)
+    turned = off | (product.real < 0)
     return at[turned] if r.closed else np.append(at[turned | (at == 0)], 1.0)
 
 
