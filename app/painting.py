@@ -59,7 +59,14 @@ class Thinner:
         self._kept: OrderedDict[object, tuple[FloatArray, FloatArray]] = OrderedDict()
 
     def __call__(self, outlines: Outlines, transform: QTransform) -> list[tuple[FloatArray, bool]]:
-        where = (transform.m11(), transform.m12(), transform.m21(), transform.m22(), transform.dx(), transform.dy())
+        where = (
+            transform.m11(),
+            transform.m12(),
+            transform.m21(),
+            transform.m22(),
+            transform.dx(),
+            transform.dy(),
+        )
         return [(self._thinned(p, closed, where, transform), closed) for p, closed in outlines if len(p)]
 
     def _thinned(self, points: FloatArray, closed: bool, where: object, transform: QTransform) -> FloatArray:

@@ -1,6 +1,7 @@
 """The in-betweening engine: outlines, correspondences, vertex paths, documents. It knows no window."""
 
-from core.correspondence.matching import match
+from core.correspondence.drawings import OutlinePairs, pair_outlines
+from core.correspondence.matching import Alternative, alternatives, match, match_quick
 from core.correspondence.pairing import Correspondence
 from core.errors import (
     CorrespondenceError,
@@ -16,6 +17,7 @@ from core.model.document import Document
 
 __all__ = [
     "METHODS",
+    "Alternative",
     "Correspondence",
     "CorrespondenceError",
     "Document",
@@ -23,10 +25,14 @@ __all__ = [
     "FileFormatError",
     "GeometryError",
     "InkbetweenError",
+    "OutlinePairs",
     "StorageError",
+    "alternatives",
     "inbetween",
     "load",
     "match",
+    "match_quick",
+    "pair_outlines",
     "plan",
     "save",
 ]

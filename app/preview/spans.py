@@ -1,51 +1,64 @@
 """Plans of spans for the canvas: at once with what is known, better as soon as the worker has solved it."""
 
 from collections import OrderedDict
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.preview.worker import NewestWins
-from core.correspondence.matching import match
+from core.correspondence.matching import match, match_quick
 from core.correspondence.pairing import Correspondence
 from core.errors import InkbetweenError
 from core.model.document import Anchor, Keyframe
-from core.model.drawing import Outline
-from core.model.inbetweens import PairMatch, SpanMatch, SpanPlan, paired_outlines, plan_span
+from core.model.drawing import Drawing, Outline
+from core.model.inbetweens import PairMatch, Rows, SpanMatch, SpanPlan, paired_outlines, plan_span
 
 PAUSE_MS = 40
 """The worker starts when nothing new was asked for this long: while a vertex is dragged, the pairs stay put."""
 
 MOST_KEPT = 256
-QUICK_CELLS = 40_000
-"""Outlines with at most this many vertex pairs are matched at once, between two frames of a drag."""
+
+Pairs = tuple[tuple[int, int], ...]
 
 
 @dataclass(frozen=True, slots=True)
 class _Task:
-    """Two outlines to be matched."""
+    """Two outlines to be matched, and the frames of their keyframes."""
 
     before: Outline
     after: Outline
     anchors: tuple[Anchor, ...]
+    frames: tuple[int, int]
 
-    def key(self) -> tuple[int, int, tuple[Anchor, ...]]:
+    @property
+    def closed(self) -> bool:
+        return self.before.closed and self.after.closed
+
+    def key(self) -> tuple[object, ...]:
         return id(self.before), id(self.after), self.anchors
 
     def likeness(self) -> tuple[object, ...]:
-        """Equal for tasks whose correspondences fit each other's outlines."""
+        """Equal for tasks whose vertices can share a correspondence."""
         a, b = self.before, self.after
-        return a.id, b.id, len(a.points), len(b.points), a.closed, b.closed, self.anchors
+        return self.frames, a.id, b.id, len(a.points), len(b.points), a.closed, b.closed
 
     def solve(self) -> Correspondence:
-        closed = self.before.closed and self.after.closed
-        return match(self.before.points, self.after.points, self.anchors, closed=closed)
+        return match(self.before.points, self.after.points, self.anchors, closed=self.closed)
+
+    def solve_quickly(self, near: Correspondence | None) -> Correspondence:
+        return match_quick(self.before.points, self.after.points, self.anchors, closed=self.closed, near=near)
+
+    def rows(self, correspondence: Correspondence) -> Rows:
+        return correspondence.aligned_positions(self.before.points, self.after.points)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class _Solved:
+    """A task's answer; `rows` are worked out once and hold while vertices are only moved."""
+
     task: _Task
     correspondence: Correspondence
+    rows: Rows
 
 
 class SpanPreview(QObject):
@@ -56,9 +69,10 @@ class SpanPreview(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._exact: OrderedDict[object, _Solved] = OrderedDict()
-        self._alike: OrderedDict[object, Correspondence] = OrderedDict()
+        self._alike: OrderedDict[object, _Solved] = OrderedDict()
         self._plans: OrderedDict[object, tuple[object, SpanPlan]] = OrderedDict()
-        self._wanted: dict[object, _Task] = {}
+        self._pairs: OrderedDict[object, tuple[object, Pairs]] = OrderedDict()
+        self._wanted: OrderedDict[object, _Task] = OrderedDict()
         self._worker = NewestWins(self)
         self._worker.finished.connect(self._on_solved)
         self._pause = QTimer(self)
@@ -77,52 +91,54 @@ class SpanPreview(QObject):
 
     def plan(self, before: Keyframe, after: Keyframe, method: str | None = None) -> SpanPlan:
         """Return a plan of the span, with another method if one is named."""
-        span = before.span
-        matched, final = self._matched(before, after)
-        key = (id(before.drawing), id(after.drawing), method or span.method, span.turns, matched)
+        span = before.span if method is None else replace(before.span, method=method)
+        solved = [self._solved(task) for task in self._tasks(before, after)]
+        parts = (before.drawing, after.drawing, solved)  # kept, so that no other object can take their ids
+        key = (id(parts[0]), id(parts[1]), span.method, span.turns, *(id(s) for s in solved))
         found = self._plans.get(key)
         if found is None:
-            parts = (before.drawing, after.drawing)  # kept, so that no other object can take their ids
-            changed = type(span)(method or span.method, span.easing, span.turns, span.pairs)
-            found = self._plans[key] = (parts, plan_span(*parts, changed, matched))
-        self._plans.move_to_end(key)
-        _forget(self._plans, MOST_KEPT if final else 8)
+            pairs = (PairMatch(s.task.before.id, s.task.after.id, s.correspondence, s.rows) for s in solved)
+            plan = plan_span(before.drawing, after.drawing, span, SpanMatch(tuple(pairs)))
+            found = self._plans[key] = (parts, plan)
+        _touch(self._plans, key)
         return found[1]
 
-    def _matched(self, before: Keyframe, after: Keyframe) -> tuple[SpanMatch, bool]:
-        pairs = []
-        self._wanted.clear()
-        for i, j in paired_outlines(before.drawing, after.drawing, before.span):
+    def _tasks(self, before: Keyframe, after: Keyframe) -> list[_Task]:
+        tasks = []
+        for i, j in self._paired(before.drawing, after.drawing, before):
             made = before.span.pair_of(i, j)
             a, b = before.drawing.outline(i), after.drawing.outline(j)
-            if made is not None and made.correspondence is not None:
-                pairs.append(PairMatch(i, j, made.correspondence))
-            else:
-                task = _Task(a, b, made.anchors if made else ())
-                pairs.append(PairMatch(i, j, self._correspondence(task)))
-        if self._wanted:
+            tasks.append(_Task(a, b, made.anchors if made else (), (before.frame, after.frame)))
+        return tasks
+
+    def _paired(self, before: Drawing, after: Drawing, keyframe: Keyframe) -> Pairs:
+        key = (id(before), id(after), tuple((p.before, p.after) for p in keyframe.span.pairs))
+        found = self._pairs.get(key)
+        if found is None:
+            found = self._pairs[key] = ((before, after), paired_outlines(before, after, keyframe.span))
+        _touch(self._pairs, key)
+        return found[1]
+
+    def _solved(self, task: _Task) -> _Solved:
+        """Return the exact answer, or else the last one for outlines alike, and ask the worker for the exact."""
+        exact = self._exact.get(task.key())
+        if exact is not None:
+            _touch(self._exact, task.key())
+            return exact
+        waiting = self._wanted.get(task.likeness())
+        if waiting is None or waiting.key() != task.key():
+            self._wanted[task.likeness()] = task  # of two steps of one drag only the last is worth solving
             self._pause.start()
-        return SpanMatch(tuple(pairs)), not self._wanted
-
-    def _correspondence(self, task: _Task) -> Correspondence:
-        found = self._exact.get(task.key())
-        if found is not None:
-            self._exact.move_to_end(task.key())
-            return found.correspondence
         alike = self._alike.get(task.likeness())
-        if alike is not None:
-            self._wanted[task.key()] = task
+        if alike is not None and alike.task.anchors == task.anchors:
             return alike
-        solved = task.solve()
-        self._keep(_Solved(task, solved))
-        return solved
+        quick = task.solve_quickly(alike.correspondence if alike else None)
+        return self._keep_alike(_Solved(task, quick, task.rows(quick)))
 
-    def _keep(self, solved: _Solved) -> None:
-        self._exact[solved.task.key()] = solved
-        self._alike[solved.task.likeness()] = solved.correspondence
-        self._alike.move_to_end(solved.task.likeness())
-        _forget(self._exact, MOST_KEPT)
-        _forget(self._alike, MOST_KEPT)
+    def _keep_alike(self, solved: _Solved) -> _Solved:
+        self._alike[solved.task.likeness()] = solved
+        _touch(self._alike, solved.task.likeness())
+        return solved
 
     def _on_paused(self) -> None:
         tasks = tuple(self._wanted.values())
@@ -134,8 +150,12 @@ class SpanPreview(QObject):
             raise result
         if isinstance(result, list):
             for solved in result:
-                self._keep(solved)
-                self._wanted.pop(solved.task.key(), None)
+                self._exact[solved.task.key()] = solved
+                _touch(self._exact, solved.task.key())
+                self._keep_alike(solved)
+                waiting = self._wanted.get(solved.task.likeness())
+                if waiting is not None and waiting.key() == solved.task.key():
+                    del self._wanted[solved.task.likeness()]
             self.planned.emit()
 
 
@@ -143,12 +163,15 @@ def _solve(tasks: tuple[_Task, ...]) -> list[_Solved]:
     found = []
     for task in tasks:
         try:
-            found.append(_Solved(task, task.solve()))
+            correspondence = task.solve()
         except InkbetweenError:
-            continue  # refused drawings never reach a document; the last good plan stays
+            correspondence = task.solve_quickly(None)
+        found.append(_Solved(task, correspondence, task.rows(correspondence)))
     return found
 
 
-def _forget(kept: OrderedDict[object, object] | OrderedDict, most: int) -> None:  # type: ignore[type-arg]
-    while len(kept) > most:
+def _touch(kept: OrderedDict, key: object) -> None:  # type: ignore[type-arg]
+    """Mark as used last, and forget what was not used for the longest time."""
+    kept.move_to_end(key)
+    while len(kept) > MOST_KEPT:
         kept.popitem(last=False)

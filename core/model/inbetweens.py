@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from core.correspondence.drawings import pair_outlines
 from core.correspondence.matching import match
 from core.correspondence.pairing import Correspondence
 from core.geometry.outline import FloatArray, locate, points_at
@@ -115,15 +116,18 @@ def mix_styles(before: Style, after: Style, t: float) -> Style:
 
 
 def paired_outlines(before: Drawing, after: Drawing, span: Span) -> tuple[tuple[int, int], ...]:
-    """Return the ids of outlines that belong together: those of the artist first, the rest in order of drawing."""
+    """Return the ids of outlines that belong together: those of the artist first, then the likeliest pairs."""
     fixed = tuple((p.before, p.after) for p in span.pairs if before.has(p.before) and after.has(p.after))
-    taken_before, taken_after = {i for i, _ in fixed}, {j for _, j in fixed}
-    free = []
-    for closed in (True, False):
-        left = (o.id for o in before.outlines if o.closed == closed and o.id not in taken_before)
-        right = (o.id for o in after.outlines if o.closed == closed and o.id not in taken_after)
-        free += list(zip(left, right, strict=False))
-    return fixed + tuple(free)
+    left, right = before.outlines, after.outlines
+    if len(left) == len(right) == 1 and left[0].closed == right[0].closed:
+        return ((left[0].id, right[0].id),)
+    row = {o.id: i for i, o in enumerate(left)}, {o.id: j for j, o in enumerate(right)}
+    found = pair_outlines(
+        [(o.points, o.closed) for o in left],
+        [(o.points, o.closed) for o in right],
+        [(row[0][i], row[1][j]) for i, j in fixed],
+    )
+    return tuple((left[i].id, right[j].id) for i, j in found.pairs)
 
 
 def match_span(before: Drawing, after: Drawing, span: Span) -> SpanMatch:

@@ -87,8 +87,8 @@ class Hand:
         return self.editor.window.message_bar.text
 
     def settle(self, qtbot: QtBot) -> None:
-        """Wait until the worker has nothing left to do."""
-        qtbot.waitUntil(lambda: self.editor.preview.settled, timeout=20_000)
+        """Wait until what is shown is final."""
+        qtbot.waitUntil(lambda: self.canvas.content is not None and self.editor.preview.settled, timeout=20_000)
 
     def move_on(self, widget: QWidget, at: QPoint) -> None:
         """Move over another widget with the left button down."""
