@@ -147,7 +147,8 @@ class Editor(QObject):
     def _connect(self) -> None:
         session, window = self.session, self.window
         session.problem.connect(lambda text: window.tell(text, "error"))
-        for signal_ in (session.documentChanged, session.frameChanged, session.layerChanged):
+        session.documentChanged.connect(self._on_document_changed)
+        for signal_ in (session.frameChanged, session.layerChanged):
             signal_.connect(self._refresh)
         for signal_ in (session.selectionChanged, session.gestureChanged, self.view_state.changed):
             signal_.connect(self._refresh)
@@ -163,6 +164,10 @@ class Editor(QObject):
         hints = QGuiApplication.styleHints()
         hints.colorSchemeChanged.connect(self._on_color_scheme)
         window.show_title()
+
+    def _on_document_changed(self) -> None:
+        if not self.session.in_gesture:  # at every step of a drag the menus can wait for its end
+            self._refresh()
 
     def _refresh(self, *_: object) -> None:
         """Show in menus and buttons what can be done now."""

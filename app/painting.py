@@ -28,6 +28,8 @@ RUN_LENGTH = 6.0
 """Device px; of a smooth outline one or two vertices are kept in a run, of a rugged one four."""
 UNSEEN = 0.05
 """Device px; antialiasing has 256 steps a pixel, so less than this changes a pixel by 13 of 255 at most."""
+ROUNDS = 2
+"""Once is enough while something moves; then a spike still shows, and its foot is a little off."""
 FEW_VERTICES = 64
 """Outlines as small as this are cheaper to paint than to look at."""
 BEVELLED = (1.0, 6.0)
@@ -52,9 +54,13 @@ def _thinned_outlines(outlines: Outlines, transform: QTransform) -> list[tuple[F
 
 
 class Thinner:
-    """Thins outlines, and remembers those that cannot change (read-only arrays) for the next picture."""
+    """Thins outlines, and remembers those that cannot change (read-only arrays) for the next picture.
+
+    `rounds` may be set lower while pictures follow each other quickly.
+    """
 
     def __init__(self, capacity: int = 64) -> None:
+        self.rounds = ROUNDS
         self._capacity = capacity
         self._kept: OrderedDict[object, tuple[FloatArray, FloatArray]] = OrderedDict()
 
@@ -71,12 +77,15 @@ class Thinner:
 
     def _thinned(self, points: FloatArray, closed: bool, where: object, transform: QTransform) -> FloatArray:
         if points.flags.writeable:
-            return _thinned(_mapped(points, transform), closed=closed)
-        key = (id(points), closed, where)
+            return _thinned(_mapped(points, transform), closed=closed, rounds=self.rounds)
+        key = (id(points), closed, where, self.rounds)
         found = self._kept.get(key)
         if found is None:
             # the array is kept too, so that no other one can take its id
-            found = self._kept[key] = (points, _thinned(_mapped(points, transform), closed=closed))
+            found = self._kept[key] = (
+                points,
+                _thinned(_mapped(points, transform), closed=closed, rounds=self.rounds),
+            )
         self._kept.move_to_end(key)
         while len(self._kept) > self._capacity:
             self._kept.popitem(last=False)
@@ -98,11 +107,12 @@ def _mapped(points: FloatArray, transform: QTransform) -> FloatArray:
     return mapped
 
 
-def _thinned(points: FloatArray, *, closed: bool) -> FloatArray:
+def _thinned(points: FloatArray, *, closed: bool, rounds: int = ROUNDS) -> FloatArray:
     """Drop vertices that cannot be seen.
 
-    Of every run of `RUN_LENGTH` px its start stays, then twice whatever stands out farthest from the lines between
-    those that stay. An edge longer than a run is a run of its own, so the corners of ordinary polygons stay.
+    Of every run of `RUN_LENGTH` px its start stays, then `rounds` times whatever stands out farthest from the
+    lines between those that stay. An edge longer than a run is a run of its own, so the corners of ordinary
+    polygons stay.
     """
     n = len(points)
     if n <= FEW_VERTICES:
@@ -114,7 +124,7 @@ def _thinned(points: FloatArray, *, closed: bool) -> FloatArray:
     stays = np.ones(n, dtype=bool)
     np.not_equal(run[1:], run[:-1], out=stays[1:])
     stays[-1] = True
-    for _ in range(2):
+    for _ in range(rounds):
         starts = np.flatnonzero(stays)
         distance = _distance_to_chord(x, y, starts, closed=closed)
         farthest = np.maximum.reduceat(distance, starts)

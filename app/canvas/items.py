@@ -22,6 +22,7 @@ INBETWEEN_WIDTH = 2.2
 SKIN_WIDTH = 1.0
 FEW_SKIN_VERTICES = 1000
 MOST_LINES = 40
+MOST_LOOKED_AT = 1000
 CLOSEST_VERTICES = 7.0
 """View px: vertices nearer to each other on average are not marked one by one."""
 
@@ -213,8 +214,7 @@ class HandlesItem(CanvasItem):
         selected = self.canvas.session.selection.vertices
         for paper, side, ref, outline in content.outlines():
             points = camera.to_view(outline.points, paper.offset)
-            spacing = camera.scale * perimeter(outline.points, closed=outline.closed) / len(points)
-            if spacing >= CLOSEST_VERTICES and not content.films:
+            if vertex_spacing(points) >= CLOSEST_VERTICES and not content.films:
                 draw_dots(painter, points, theme.color(side), theme.color("stage"))
             chosen = selected.get(ref)
             if chosen:
@@ -309,16 +309,25 @@ def spaced(points: FloatArray, scale: float) -> FloatArray:
     if len(points) <= FEW_SKIN_VERTICES:
         return points
     wide, high = np.ptp(points[:: len(points) // 256], axis=0) * scale
-    return points[:: max(1, int(len(points) / (4 * (wide + high))))]
+    return points[:: max(1, int(len(points) / (1.5 * max(wide + high, 1.0))))]
 
 
 def spread_rows(left: FloatArray, right: FloatArray, closed: bool) -> FloatArray:
     """Return the indices of at most MOST_LINES rows, evenly spread along both outlines."""
     if len(left) <= MOST_LINES:
         return np.arange(len(left))
-    lengths = (arc_lengths(side, closed=closed) for side in (left, right))
-    along = sum(s[: len(left)] / max(float(s[-1]), 1e-12) for s in lengths)
-    return np.unique(np.searchsorted(along, np.linspace(0, float(along[-1]), MOST_LINES)).clip(0, len(left) - 1))
+    step = -(-len(left) // MOST_LOOKED_AT)
+    lengths = [arc_lengths(side[::step], closed=closed) for side in (left, right)]
+    along = sum(s[: len(left[::step])] / max(float(s[-1]), 1e-12) for s in lengths)
+    rows = np.searchsorted(along, np.linspace(0, float(along[-1]), MOST_LINES)).clip(0, len(along) - 1)
+    return step * np.unique(rows)
+
+
+def vertex_spacing(points: FloatArray) -> float:
+    """Return the mean distance of neighbouring vertices, of a part of them where there are very many."""
+    if len(points) > 4 * MOST_LOOKED_AT:
+        points = points[:MOST_LOOKED_AT]
+    return perimeter(points, closed=False) / max(len(points) - 1, 1)
 
 
 def draw_dots(painter: QPainter, points: FloatArray, ring: QColor, fill: QColor, size: float = 7.0) -> None:

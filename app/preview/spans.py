@@ -3,6 +3,7 @@
 from collections import OrderedDict
 from dataclasses import dataclass, replace
 
+import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.preview.worker import NewestWins
@@ -16,6 +17,7 @@ from core.model.inbetweens import PairMatch, Rows, SpanMatch, SpanPlan, paired_o
 PAUSE_MS = 40
 """The worker starts when nothing new was asked for this long: while a vertex is dragged, the pairs stay put."""
 
+MOST_DRAGGED_ROWS = 6000
 MOST_KEPT = 256
 
 Pairs = tuple[tuple[int, int], ...]
@@ -73,6 +75,7 @@ class SpanPreview(QObject):
         self._plans: OrderedDict[object, tuple[object, SpanPlan]] = OrderedDict()
         self._pairs: OrderedDict[object, tuple[object, Pairs]] = OrderedDict()
         self._wanted: OrderedDict[object, _Task] = OrderedDict()
+        self._coarse: tuple[_Solved, bool, _Solved] | None = None
         self._worker = NewestWins(self)
         self._worker.finished.connect(self._on_solved)
         self._pause = QTimer(self)
@@ -131,9 +134,21 @@ class SpanPreview(QObject):
             self._pause.start()
         alike = self._alike.get(task.likeness())
         if alike is not None and alike.task.anchors == task.anchors:
-            return alike
+            return self._thinner(alike, task)
         quick = task.solve_quickly(alike.correspondence if alike else None)
         return self._keep_alike(_Solved(task, quick, task.rows(quick)))
+
+    def _thinner(self, alike: _Solved, task: _Task) -> _Solved:
+        """Leave out, while a huge outline is dragged, the images of the other one's vertices: nobody sees them."""
+        p, q = alike.rows
+        if len(p) <= MOST_DRAGGED_ROWS:
+            return alike
+        before_moves = task.before is not alike.task.before
+        if self._coarse is None or self._coarse[:2] != (alike, before_moves):
+            moved = p if before_moves else q
+            own = moved == np.floor(moved)
+            self._coarse = alike, before_moves, replace(alike, rows=(p[own], q[own]))
+        return self._coarse[2]
 
     def _keep_alike(self, solved: _Solved) -> _Solved:
         self._alike[solved.task.likeness()] = solved
