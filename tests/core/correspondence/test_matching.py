@@ -12,7 +12,7 @@ from core.correspondence.matching import alternatives, match, match_quick
 from core.errors import CorrespondenceError, GeometryError
 from core.geometry.outline import lengths_at, perimeter, points_at, positions_at_lengths, size
 
-brief = settings(max_examples=20, deadline=None, derandomize=True, phases=(Phase.explicit, Phase.generate))
+brief = settings(max_examples=12, deadline=None, derandomize=True, phases=(Phase.explicit, Phase.generate))
 SHARES = np.arange(200) / 200
 
 
@@ -104,6 +104,13 @@ def test_every_anchor_is_kept_exactly(a, b, data):
 @given(blobs(), blobs())
 def test_exchanging_the_outlines_gives_the_inverse(a, b):
     assert shift(map_of(match(b, a).inverse, a, b), map_of(match(a, b), a, b)) < 1e-3
+
+
+@brief
+@given(blobs(), blobs(), st.floats(0, 11.5), st.floats(0, 11.5))
+def test_exchanging_the_outlines_and_their_anchors_gives_the_inverse(a, b, x, y):
+    there, back = match(a, b, [(x, y)]), match(b, a, [(y, x)])
+    assert shift(map_of(back.inverse, a, b), map_of(there, a, b)) < 1e-3
 
 
 @brief
