@@ -10,7 +10,7 @@ from app.preview.worker import NewestWins
 from core.correspondence.matching import match, match_quick
 from core.correspondence.pairing import Correspondence
 from core.errors import InkbetweenError
-from core.model.document import Anchor, Keyframe
+from core.model.document import Keyframe
 from core.model.drawing import Drawing, Outline
 from core.model.inbetweens import PairMatch, Rows, SpanMatch, SpanPlan, paired_outlines, plan_span
 
@@ -29,15 +29,16 @@ class _Task:
 
     before: Outline
     after: Outline
-    anchors: tuple[Anchor, ...]
+    anchors: tuple[tuple[float, float], ...]
     frames: tuple[int, int]
+    kept: Correspondence | None = None
 
     @property
     def closed(self) -> bool:
         return self.before.closed and self.after.closed
 
     def key(self) -> tuple[object, ...]:
-        return id(self.before), id(self.after), self.anchors
+        return id(self.before), id(self.after), self.anchors, id(self.kept)
 
     def likeness(self) -> tuple[object, ...]:
         """Equal for tasks whose vertices can share a correspondence."""
@@ -45,6 +46,9 @@ class _Task:
         return self.frames, a.id, b.id, len(a.points), len(b.points), a.closed, b.closed
 
     def solve(self) -> Correspondence:
+        """Return the kept correspondence, or the solver's answer."""
+        if self.kept is not None:
+            return self.kept
         return match(self.before.points, self.after.points, self.anchors, closed=self.closed)
 
     def solve_quickly(self, near: Correspondence | None) -> Correspondence:
@@ -110,8 +114,9 @@ class SpanPreview(QObject):
         tasks = []
         for i, j in self._paired(before.drawing, after.drawing, before):
             made = before.span.pair_of(i, j)
+            kept = made.correspondence if made else None
             a, b = before.drawing.outline(i), after.drawing.outline(j)
-            tasks.append(_Task(a, b, made.anchors if made else (), (before.frame, after.frame)))
+            tasks.append(_Task(a, b, made.held if made else (), (before.frame, after.frame), kept))
         return tasks
 
     def _paired(self, before: Drawing, after: Drawing, keyframe: Keyframe) -> Pairs:
@@ -128,11 +133,13 @@ class SpanPreview(QObject):
         if exact is not None:
             _touch(self._exact, task.key())
             return exact
+        alike = self._alike.get(task.likeness())
+        if task.kept is not None:
+            return self._keep_exact(_Solved(task, task.kept, self._kept_rows(task, alike)))
         waiting = self._wanted.get(task.likeness())
         if waiting is None or waiting.key() != task.key():
             self._wanted[task.likeness()] = task  # of two steps of one drag only the last is worth solving
             self._pause.start()
-        alike = self._alike.get(task.likeness())
         if alike is not None and alike.task.anchors == task.anchors:
             return self._thinner(alike, task)
         quick = task.solve_quickly(alike.correspondence if alike else None)
@@ -150,6 +157,17 @@ class SpanPreview(QObject):
             self._coarse = alike, before_moves, replace(alike, rows=(p[own], q[own]))
         return self._coarse[2]
 
+    def _kept_rows(self, task: _Task, alike: _Solved | None) -> Rows:
+        """Walk along both outlines only when the correspondence is a new one."""
+        if alike is not None and alike.correspondence is task.kept:
+            return alike.rows
+        return task.rows(task.solve())
+
+    def _keep_exact(self, solved: _Solved) -> _Solved:
+        self._exact[solved.task.key()] = solved
+        _touch(self._exact, solved.task.key())
+        return self._keep_alike(solved)
+
     def _keep_alike(self, solved: _Solved) -> _Solved:
         self._alike[solved.task.likeness()] = solved
         _touch(self._alike, solved.task.likeness())
@@ -165,9 +183,7 @@ class SpanPreview(QObject):
             raise result
         if isinstance(result, list):
             for solved in result:
-                self._exact[solved.task.key()] = solved
-                _touch(self._exact, solved.task.key())
-                self._keep_alike(solved)
+                self._keep_exact(solved)
                 waiting = self._wanted.get(solved.task.likeness())
                 if waiting is not None and waiting.key() == solved.task.key():
                     del self._wanted[solved.task.likeness()]

@@ -9,7 +9,6 @@ import itertools
 import os
 import stat
 import tempfile
-from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Final, Literal
@@ -19,7 +18,18 @@ import numpy as np
 
 from core.correspondence.pairing import Correspondence, ordered_anchors
 from core.errors import FileFormatError, InkbetweenError, StorageError
-from core.model.document import LONGEST_NAME, Anchor, Document, Keyframe, Layer, OutlinePair, Span, Stage
+from core.model.document import (
+    LONGEST_NAME,
+    LONGEST_PATH,
+    Anchor,
+    Document,
+    Keyframe,
+    Layer,
+    OutlinePair,
+    Reference,
+    Span,
+    Stage,
+)
 from core.model.drawing import LARGEST_ID, Drawing, Outline, Style
 from core.model.easing import Easing
 
@@ -50,7 +60,9 @@ class _Pair(_Struct, omit_defaults=True):
     before: Id
     after: Id
     anchors: list[Point] = []
+    muted: list[int] = []
     correspondence: _Correspondence | None = None
+    chosen: bool = False
 
 
 class _Span(_Struct):
@@ -77,10 +89,16 @@ class _Drawing(_Struct):
     outlines: list[_Outline]
 
 
-class _Keyframe(_Struct):
+class _Reference(_Struct):
+    path: Annotated[str, msgspec.Meta(min_length=1, max_length=LONGEST_PATH)]
+    opacity: Number
+
+
+class _Keyframe(_Struct, omit_defaults=True):
     frame: int
     drawing: _Drawing
     span: _Span
+    reference: _Reference | None = None
 
 
 class _Layer(_Struct):
@@ -248,6 +266,7 @@ def _keyframe_to_file(keyframe: Keyframe) -> _Keyframe:
             int(span.turns),
             [_pair_to_file(p) for p in span.pairs],
         ),
+        _Reference(keyframe.reference.path, float(keyframe.reference.opacity)) if keyframe.reference else None,
     )
 
 
@@ -258,7 +277,8 @@ def _pair_to_file(pair: OutlinePair) -> _Pair:
         counts = (int(c.counts[0]), int(c.counts[1]))
         kept = _Correspondence(c.before.tolist(), c.after.tolist(), counts, bool(c.closed), bool(c.flipped))
     anchors = [(float(x.before), float(x.after)) for x in pair.anchors]
-    return _Pair(int(pair.before), int(pair.after), anchors, kept)
+    muted = [i for i, x in enumerate(pair.anchors) if x.muted]
+    return _Pair(int(pair.before), int(pair.after), anchors, muted, kept, bool(pair.chosen))
 
 
 def _from_file(project: _Project) -> Document:
@@ -292,8 +312,11 @@ def _keyframe_from_file(keyframe: _Keyframe, where: str) -> Keyframe:
     pairs = [_pair_from_file(p, f"{where}.span.pairs[{i}]") for i, p in enumerate(keyframe.span.pairs)]
     with _place(f"{where}.span"):
         span = Span(keyframe.span.method, Easing(*keyframe.span.easing), keyframe.span.turns, tuple(pairs))
+    with _place(f"{where}.reference"):
+        kept = keyframe.reference
+        reference = Reference(kept.path, kept.opacity) if kept else None
     with _place(where):
-        return Keyframe(keyframe.frame, drawing, span)
+        return Keyframe(keyframe.frame, drawing, span, reference)
 
 
 def _pair_from_file(pair: _Pair, where: str) -> OutlinePair:
@@ -302,7 +325,10 @@ def _pair_from_file(pair: _Pair, where: str) -> OutlinePair:
         kept = None
         if c is not None:
             kept = Correspondence(np.array(c.before), np.array(c.after), c.counts, c.closed, c.flipped)
-        return OutlinePair(pair.before, pair.after, _anchors(pair.anchors), kept)
+        if any(not 0 <= i < len(pair.anchors) for i in pair.muted):
+            raise FileFormatError(f"there are {len(pair.anchors)} anchors; muted are {pair.muted}")
+        anchors = tuple(Anchor(*p, i in pair.muted) for i, p in enumerate(pair.anchors))
+        return OutlinePair(pair.before, pair.after, anchors, kept, pair.chosen)
 
 
 def _check_pairs(layer: Layer, where: str) -> None:
@@ -316,14 +342,10 @@ def _check_pairs(layer: Layer, where: str) -> None:
                 counts = (len(a.points), len(b.points))
                 if a.closed != b.closed:
                     raise FileFormatError("a closed outline is paired with an open one")
-                ordered_anchors(pair.anchors, counts, closed=a.closed)
+                ordered_anchors(pair.held, counts, closed=a.closed)
                 c = pair.correspondence
                 if c is not None and (c.counts, c.closed) != (counts, a.closed):
                     raise FileFormatError(f"a correspondence of {c.counts} vertices for outlines with {counts}")
-
-
-def _anchors(points: Sequence[Point]) -> tuple[Anchor, ...]:
-    return tuple(Anchor(*p) for p in points)
 
 
 class _place:

@@ -19,6 +19,7 @@ LONGEST = 100_000
 FASTEST = 1000
 MOST_TURNS = 100
 LONGEST_NAME = 1000
+LONGEST_PATH = 4096
 FINEST_RATE = 2**31 - 1
 """Largest upper or lower number of a frame rate."""
 
@@ -26,10 +27,41 @@ RATE_PATTERN = re.compile(r"\d{1,12}(\.\d{0,12})?|\.\d{1,12}|\d{1,12}\s*/\s*\d{1
 
 
 class Anchor(NamedTuple):
-    """One pair of points fixed by the artist: positions on the outlines before and after."""
+    """One pair of points fixed by the artist: positions on the outlines before and after.
+
+    A muted one is kept without effect, so that one can see what it does.
+    """
 
     before: float
     after: float
+    muted: bool = False
+
+    @property
+    def places(self) -> tuple[float, float]:
+        """The two positions."""
+        return self.before, self.after
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """A picture laid under the stage while one draws; it is never exported.
+
+    Attributes
+    ----------
+    path : str
+        The picture file.
+    opacity : float
+        0 to 1.
+    """
+
+    path: str
+    opacity: float = 0.5
+
+    def __post_init__(self) -> None:
+        if not self.path or len(self.path) > LONGEST_PATH:
+            raise DocumentError(f"a path of {len(self.path)} characters; it must have 1 to {LONGEST_PATH}")
+        if not 0 <= self.opacity <= 1:
+            raise DocumentError(f"the opacity of a reference picture is {self.opacity}; it must be 0 to 1")
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,12 +76,21 @@ class OutlinePair:
         In the order they were made.
     correspondence : Correspondence or None
         A correspondence that is kept as it is; None: solved when needed.
+    chosen : bool
+        The artist chose the correspondence: it stays while vertices move. Otherwise it is an answer that was
+        solved and stored, and is given up as soon as it may be another.
     """
 
     before: int
     after: int
     anchors: tuple[Anchor, ...] = ()
     correspondence: Correspondence | None = None
+    chosen: bool = False
+
+    @property
+    def held(self) -> tuple[tuple[float, float], ...]:
+        """The places of the anchors that are in effect."""
+        return tuple(x.places for x in self.anchors if not x.muted)
 
     def __post_init__(self) -> None:
         for anchor in self.anchors:
@@ -104,11 +145,14 @@ class Keyframe:
     drawing : Drawing
     span : Span
         To the next keyframe; without effect on the last one, yet kept, so that nothing is lost when keys move.
+    reference : Reference or None
+        Laid under the stage while this keyframe is drawn.
     """
 
     frame: int
     drawing: Drawing = field(default_factory=Drawing)
     span: Span = field(default_factory=Span)
+    reference: Reference | None = None
 
     def __post_init__(self) -> None:
         if not 1 <= self.frame <= LONGEST:

@@ -13,16 +13,52 @@ from fractions import Fraction
 import numpy as np
 import numpy.typing as npt
 
-from core.correspondence.pairing import ordered_anchors
-from core.errors import CorrespondenceError, DocumentError
+from core.errors import DocumentError
 from core.geometry.outline import FloatArray, points_at
-from core.model.document import Anchor, Document, Keyframe, Layer, OutlinePair, Span, Stage
+from core.model.document import Document, Keyframe, Layer, OutlinePair, Reference, Span, Stage
 from core.model.drawing import Drawing, Outline, Style
 from core.model.easing import Easing
+from core.model.pair_edits import (
+    add_anchor,
+    choose_correspondence,
+    clear_anchors,
+    delete_anchor,
+    move_anchor,
+    pair_outlines_by_hand,
+    set_muted,
+    solve_again,
+)
+from core.model.parts import keyframe_of, with_keyframe
 from core.model.positions import Positions, after_deletion, after_insertion, holding, same_build
 
 Mine = Callable[[OutlinePair], int]
 """The side of a pair that an edit is about: its outline before or its outline after."""
+
+__all__ = [
+    "add_anchor",
+    "add_outline",
+    "choose_correspondence",
+    "clear_anchors",
+    "delete_anchor",
+    "delete_keyframe",
+    "delete_outline",
+    "delete_vertices",
+    "insert_vertex",
+    "move_anchor",
+    "move_keyframe",
+    "move_vertices",
+    "pair_outlines_by_hand",
+    "put_drawing",
+    "set_layer",
+    "set_length",
+    "set_muted",
+    "set_rate",
+    "set_reference",
+    "set_span",
+    "set_stage",
+    "set_style",
+    "solve_again",
+]
 
 NOT_MOVED: Mapping[int, int] = {}
 
@@ -66,7 +102,7 @@ def put_drawing(document: Document, layer_id: int, frame: int, drawing: Drawing)
     if old is not None:
         if old.drawing == drawing:
             return document
-        document = _with_keyframe(document, layer, replace(old, drawing=drawing))
+        document = with_keyframe(document, layer, replace(old, drawing=drawing))
         lost = {o.id for o in old.drawing.outlines if not same_build(o, drawing)}
         return _in_both_spans(document, layer_id, frame, lambda pair, mine: None if mine(pair) in lost else pair)
     earlier = [k for k in layer.keyframes if k.frame < frame]
@@ -81,14 +117,14 @@ def put_drawing(document: Document, layer_id: int, frame: int, drawing: Drawing)
 def delete_keyframe(document: Document, layer_id: int, frame: int) -> Document:
     """Take a keyframe away; the spans on both sides become one."""
     layer = document.layer(layer_id)
-    _keyframe(layer, frame)
+    keyframe_of(layer, frame)
     return _with_keyframes(document, layer, [k for k in layer.keyframes if k.frame != frame])
 
 
 def move_keyframe(document: Document, layer_id: int, frame: int, to: int) -> Document:
     """Move a keyframe to another, free frame, also past others."""
     layer = document.layer(layer_id)
-    keyframe = _keyframe(layer, frame)
+    keyframe = keyframe_of(layer, frame)
     if to == frame:
         return document
     if layer.keyframe_at(to) is not None:
@@ -119,7 +155,7 @@ def add_outline(
 def move_vertices(document: Document, layer_id: int, frame: int, points: Mapping[int, FloatArray]) -> Document:
     """Give outlines new vertex places, {outline id: (n, 2)}; vertex counts stay."""
     layer = document.layer(layer_id)
-    keyframe = _keyframe(layer, frame)
+    keyframe = keyframe_of(layer, frame)
     drawing = keyframe.drawing
     for outline_id, moved in points.items():
         outline = drawing.outline(outline_id)
@@ -131,13 +167,14 @@ def move_vertices(document: Document, layer_id: int, frame: int, points: Mapping
             drawing = drawing.with_outline(replace(outline, points=moved))
     if drawing is keyframe.drawing:
         return document
-    return _with_keyframe(document, layer, replace(keyframe, drawing=drawing))
+    document = with_keyframe(document, layer, replace(keyframe, drawing=drawing))
+    return _in_both_spans(document, layer_id, frame, lambda pair, mine: _unsolved(pair, mine(pair) in points))
 
 
 def insert_vertex(document: Document, layer_id: int, frame: int, outline_id: int, position: float) -> Document:
     """Put a vertex on an outline at a position inside an edge; its shape stays."""
     layer = document.layer(layer_id)
-    keyframe = _keyframe(layer, frame)
+    keyframe = keyframe_of(layer, frame)
     outline = keyframe.drawing.outline(outline_id)
     top = len(outline.points) if outline.closed else len(outline.points) - 1
     if not 0 <= position <= top:
@@ -160,7 +197,7 @@ def delete_vertices(
     """Take vertices away, {outline id: indices}; an outline left with too few goes as a whole."""
     for outline_id, gone in indices.items():
         layer = document.layer(layer_id)
-        keyframe = _keyframe(layer, frame)
+        keyframe = keyframe_of(layer, frame)
         outline = keyframe.drawing.outline(outline_id)
         count = len(outline.points)
         lost = np.unique(np.fromiter(gone, dtype=np.intp))
@@ -182,21 +219,21 @@ def delete_vertices(
 def delete_outline(document: Document, layer_id: int, frame: int, outline_id: int) -> Document:
     """Take one outline out of a drawing; the last one takes the keyframe with it."""
     layer = document.layer(layer_id)
-    keyframe = _keyframe(layer, frame)
+    keyframe = keyframe_of(layer, frame)
     drawing = keyframe.drawing.without_outline(outline_id)
     if not drawing.outlines:
         return delete_keyframe(document, layer_id, frame)
-    document = _with_keyframe(document, layer, replace(keyframe, drawing=drawing))
+    document = with_keyframe(document, layer, replace(keyframe, drawing=drawing))
     return _in_both_spans(document, layer_id, frame, lambda pair, mine: None if mine(pair) == outline_id else pair)
 
 
 def set_style(document: Document, layer_id: int, frame: int, style: Style) -> Document:
     """Paint the drawing at `frame` differently."""
     layer = document.layer(layer_id)
-    keyframe = _keyframe(layer, frame)
+    keyframe = keyframe_of(layer, frame)
     if keyframe.drawing.style == style:
         return document
-    return _with_keyframe(document, layer, replace(keyframe, drawing=replace(keyframe.drawing, style=style)))
+    return with_keyframe(document, layer, replace(keyframe, drawing=replace(keyframe.drawing, style=style)))
 
 
 def set_span(
@@ -210,7 +247,7 @@ def set_span(
 ) -> Document:
     """Change how the span that begins at `frame` moves."""
     layer = document.layer(layer_id)
-    keyframe = _keyframe(layer, frame)
+    keyframe = keyframe_of(layer, frame)
     span = keyframe.span
     changed = replace(
         span,
@@ -218,78 +255,22 @@ def set_span(
         easing=span.easing if easing is None else easing,
         turns=span.turns if turns is None else turns,
     )
-    return document if changed == span else _with_keyframe(document, layer, replace(keyframe, span=changed))
+    return document if changed == span else with_keyframe(document, layer, replace(keyframe, span=changed))
 
 
-def add_anchor(
-    document: Document, layer_id: int, frame: int, before_id: int, after_id: int, anchor: Anchor
-) -> Document:
-    """Fix a pair of points in the span that begins at `frame`.
-
-    An anchor that starts or ends at the same point as an old one takes its place. If either outline was paired
-    with another one, that pair is given up.
-
-    Raises
-    ------
-    CorrespondenceError
-        If it crosses another anchor.
-    """
-    old = _span(document, layer_id, frame).pair_of(before_id, after_id)
-    if old and anchor in old.anchors:
-        return document
-    kept = tuple(x for x in old.anchors if x.before != anchor.before and x.after != anchor.after) if old else ()
-    return _set_anchors(document, layer_id, frame, before_id, after_id, (*kept, anchor))
-
-
-def move_anchor(
-    document: Document, layer_id: int, frame: int, before_id: int, after_id: int, index: int, anchor: Anchor
-) -> Document:
-    """Put the anchor number `index` of a pair elsewhere on the two outlines; raises as `add_anchor` does."""
-    anchors = list(_anchors(document, layer_id, frame, before_id, after_id, index))
-    if anchors[index] == anchor:
-        return document
-    anchors[index] = anchor
-    return _set_anchors(document, layer_id, frame, before_id, after_id, tuple(anchors))
-
-
-def delete_anchor(
-    document: Document, layer_id: int, frame: int, before_id: int, after_id: int, index: int
-) -> Document:
-    """Take one anchor away; the pair of outlines stays."""
-    anchors = _anchors(document, layer_id, frame, before_id, after_id, index)
-    rest = anchors[:index] + anchors[index + 1 :]
-    return _set_anchors(document, layer_id, frame, before_id, after_id, rest)
-
-
-def clear_anchors(document: Document, layer_id: int, frame: int) -> Document:
-    """Forget every anchor and hand-made pair of a span."""
+def set_reference(document: Document, layer_id: int, frame: int, reference: Reference | None) -> Document:
+    """Lay a picture under the stage at a keyframe, or take it away."""
     layer = document.layer(layer_id)
-    keyframe = _keyframe(layer, frame)
-    if not keyframe.span.pairs:
+    keyframe = keyframe_of(layer, frame)
+    if keyframe.reference == reference:
         return document
-    return _with_keyframe(document, layer, replace(keyframe, span=replace(keyframe.span, pairs=())))
-
-
-def _keyframe(layer: Layer, frame: int) -> Keyframe:
-    keyframe = layer.keyframe_at(frame)
-    if keyframe is None:
-        raise DocumentError(f"layer {layer.name!r} has no keyframe at frame {frame}")
-    return keyframe
-
-
-def _span(document: Document, layer_id: int, frame: int) -> Span:
-    return _keyframe(document.layer(layer_id), frame).span
+    return with_keyframe(document, layer, replace(keyframe, reference=reference))
 
 
 def _style_near(layer: Layer, frame: int) -> Style:
     before, after = layer.around(frame)
     near = before or after
     return near.drawing.style if near else Style()
-
-
-def _with_keyframe(document: Document, layer: Layer, keyframe: Keyframe) -> Document:
-    keyframes = tuple(keyframe if k.frame == keyframe.frame else k for k in layer.keyframes)
-    return document.with_layer(replace(layer, keyframes=keyframes))
 
 
 def _with_keyframes(
@@ -313,7 +294,7 @@ def _with_changed_outline(
     document: Document, layer: Layer, keyframe: Keyframe, outline_id: int, moved: Positions
 ) -> Document:
     """Set a keyframe in which one outline got other vertices, and carry the anchors on it along."""
-    document = _with_keyframe(document, layer, keyframe)
+    document = with_keyframe(document, layer, keyframe)
     count = len(keyframe.drawing.outline(outline_id).points)
     here = layer.frames().index(keyframe.frame)
 
@@ -327,11 +308,22 @@ def _with_changed_outline(
             return None
         partner = drawing.outline(partner_id)
         counts = (count, len(partner.points)) if before else (len(partner.points), count)
-        side = "before" if before else "after"
-        anchors = [x._replace(**{side: moved(getattr(x, side))}) for x in pair.anchors]
-        return replace(pair, anchors=holding(anchors, counts, closed=partner.closed), correspondence=None)
+        if before:
+            anchors = [x._replace(before=moved(x.before)) for x in pair.anchors]
+        else:
+            anchors = [x._replace(after=moved(x.after)) for x in pair.anchors]
+        return replace(
+            pair, anchors=holding(anchors, counts, closed=partner.closed), correspondence=None, chosen=False
+        )
 
     return _in_both_spans(document, layer.id, keyframe.frame, carried)
+
+
+def _unsolved(pair: OutlinePair, moved: bool) -> OutlinePair | None:
+    """Give up a stored answer of the solver; of a pair that holds nothing else nothing is left."""
+    if not moved or pair.chosen or pair.correspondence is None:
+        return pair
+    return replace(pair, correspondence=None) if pair.anchors else None
 
 
 def _before_id(pair: OutlinePair) -> int:
@@ -357,42 +349,6 @@ def _in_both_spans(
         keyframe = layer.keyframes[i]
         pairs = tuple(p for p in (change(pair, mine) for pair in keyframe.span.pairs) if p is not None)
         if pairs != keyframe.span.pairs:
-            document = _with_keyframe(document, layer, replace(keyframe, span=replace(keyframe.span, pairs=pairs)))
+            document = with_keyframe(document, layer, replace(keyframe, span=replace(keyframe.span, pairs=pairs)))
             layer = document.layer(layer_id)
     return document
-
-
-def _anchors(
-    document: Document, layer_id: int, frame: int, before_id: int, after_id: int, index: int
-) -> tuple[Anchor, ...]:
-    """Return the anchors of a pair, which must have one of that number."""
-    pair = _span(document, layer_id, frame).pair_of(before_id, after_id)
-    if pair is None or not 0 <= index < len(pair.anchors):
-        raise DocumentError(
-            f"outlines {before_id} and {after_id} have no anchor {index} in the span at frame {frame}"
-        )
-    return pair.anchors
-
-
-def _set_anchors(
-    document: Document,
-    layer_id: int,
-    frame: int,
-    before_id: int,
-    after_id: int,
-    anchors: tuple[Anchor, ...],
-) -> Document:
-    layer = document.layer(layer_id)
-    keyframe = _keyframe(layer, frame)
-    following = [k for k in layer.keyframes if k.frame > frame]
-    if not following:
-        raise DocumentError(f"no span begins at frame {frame}: it holds the last keyframe")
-    a = keyframe.drawing.outline(before_id)
-    b = following[0].drawing.outline(after_id)
-    if a.closed != b.closed:
-        raise CorrespondenceError("a closed outline cannot correspond to an open one")
-    ordered_anchors(anchors, (len(a.points), len(b.points)), closed=a.closed)
-    others = tuple(p for p in keyframe.span.pairs if p.before != before_id and p.after != after_id)
-    pair = OutlinePair(before_id, after_id, anchors)
-    span = replace(keyframe.span, pairs=(*others, pair))
-    return _with_keyframe(document, layer, replace(keyframe, span=span))

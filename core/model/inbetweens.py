@@ -137,7 +137,7 @@ def match_span(before: Drawing, after: Drawing, span: Span) -> SpanMatch:
         a, b = before.outline(i), after.outline(j)
         made = span.pair_of(i, j)
         kept = made.correspondence if made else None
-        anchors = made.anchors if made else ()
+        anchors = made.held if made else ()
         closed = a.closed and b.closed
         pairs.append(PairMatch(i, j, kept or match(a.points, b.points, anchors, closed=closed)))
     return SpanMatch(tuple(pairs))

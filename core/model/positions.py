@@ -73,7 +73,7 @@ def holding(anchors: Sequence[Anchor], counts: tuple[int, int], *, closed: bool)
     kept: tuple[Anchor, ...] = ()
     for anchor in anchors:
         try:
-            ordered_anchors((*kept, anchor), counts, closed=closed)
+            ordered_anchors([x.places for x in (*kept, anchor)], counts, closed=closed)
         except CorrespondenceError:
             continue
         kept = (*kept, anchor)

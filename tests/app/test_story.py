@@ -232,7 +232,7 @@ def test_an_anchor_is_dragged_from_outline_to_outline_and_holds(hand, qtbot) -> 
     live = hand.canvas.content.plan.links[0]
     hand.release(HOUSE[3])
     pair = hand.session.layer.keyframe_at(1).span.pairs[0]
-    assert pair.anchors == ((0.0, 3.0),)
+    assert pair.held == ((0.0, 3.0),)
     hand.settle(qtbot)
     link = hand.canvas.content.plan.links[0]
     for each in (live, link):
@@ -246,7 +246,7 @@ def test_an_anchors_end_is_dragged_along_its_outline_deleted_and_brought_back(ha
     hand.key(Qt.Key.Key_C)
     hand.drag(SQUARE[0], (900.0, 500.0), HOUSE[3])
     hand.drag(HOUSE[3], (1500.0, 700.0), HOUSE[2])
-    assert hand.session.layer.keyframe_at(1).span.pairs[0].anchors == ((0.0, 2.0),)
+    assert hand.session.layer.keyframe_at(1).span.pairs[0].held == ((0.0, 2.0),)
     assert hand.session.undo_stack.undoText() == "Move Anchor"
     middle = (1300.0, 800.0)
     hand.drag(HOUSE[2], (1500.0, 790.0), middle)
