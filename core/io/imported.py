@@ -55,6 +55,14 @@ class Imported:
         return len({d.style for d in self.drawings})
 
 
+def remark(imported: Imported, *, as_one: bool = False) -> str:
+    """Return what became of things that were not taken over as they were, as half a sentence; "" if nothing."""
+    names = list(imported.left_out)
+    if as_one and imported.styles > 1:
+        names.append(f"{imported.styles - 1} of {imported.styles} styles (a keyframe has one, the first is used)")
+    return f"not taken over: {', '.join(names)}" if names else ""
+
+
 def fitted(imported: Imported, stage: Stage) -> Imported:
     """Return the drawings in the middle of the stage, made smaller if the picture is larger than the stage.
 
