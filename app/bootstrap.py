@@ -10,11 +10,13 @@ from PySide6.QtWidgets import QApplication, QMenu
 
 import resources
 from app import editing
+from app.canvas.reference import current_reference
 from app.dialogs.export import ExportDialog
 from app.dialogs.help import show_about, show_keys
 from app.dialogs.stage import StageDialog
 from app.editing import Clipboard
 from app.files import Files
+from app.incoming import Incoming
 from app.playback import Playback
 from app.preview.spans import SpanPreview
 from app.session import Selection, Session
@@ -45,6 +47,7 @@ class Editor(QObject):
         theme = system_theme(self.settings.text("theme", "system"))
         self.window = Window(self.session, self.preview, self.view_state, self.playback, self.settings, theme)
         self.files = Files(self.window, self.session, self.settings, self.window.tell)
+        self.incoming = Incoming(self.window, self.session, self.settings)
         self.export_dialog: ExportDialog | None = None
         self.window.table.connect_all(self._runs())
         self._connect()
@@ -60,6 +63,7 @@ class Editor(QObject):
         return (
             self._file_runs()
             | self._edit_runs()
+            | self._insert_runs()
             | self._view_runs()
             | {name: lambda n=name: self.window.choose_tool(n) for name in self.window.tools}
             | self._key_runs()
@@ -73,6 +77,8 @@ class Editor(QObject):
             "file.save": files.save,
             "file.save_as": files.save_as,
             "file.stage": self.edit_stage,
+            "file.import": self.incoming.import_svg,
+            "file.import_layers": lambda: self.incoming.import_svg(as_layers=True),
             "file.export": self.export_frames,
             "file.close": files.new,
             "file.quit": self.window.close,
@@ -93,6 +99,13 @@ class Editor(QObject):
             "edit.delete": lambda: editing.delete(session),
             "edit.select_all": lambda: editing.select_all(session),
             "edit.select_none": lambda: session.select(Selection()),
+        }
+
+    def _insert_runs(self):
+        return {
+            "insert.letters": self.incoming.insert_letters,
+            "insert.reference": self.incoming.choose_reference,
+            "insert.no_reference": self.window.reference_panel.remove_reference,
         }
 
     def _view_runs(self):
@@ -159,7 +172,8 @@ class Editor(QObject):
         window.canvas.playPressed.connect(self.playback.toggle)
         window.timeline.track.menuWanted.connect(self._show_key_menu)
         window.closeAsked.connect(self._on_close_asked)
-        window.fileDropped.connect(lambda name: self.files.open_path(Path(name)))
+        window.fileDropped.connect(lambda name: self.incoming.take(Path(name), self.files.open_path))
+        window.canvas.references.unreadable.connect(session.problem, Qt.ConnectionType.QueuedConnection)
         window.menus["File"].aboutToShow.connect(self._fill_recent)
         hints = QGuiApplication.styleHints()
         hints.colorSchemeChanged.connect(self._on_color_scheme)
@@ -185,6 +199,7 @@ class Editor(QObject):
         if before is not None and there:
             table[METHOD_ACTIONS[before.span.method]].setChecked(True)
         table["key.delete"].setEnabled(session.layer.keyframe_at(session.frame) is not None)
+        table["insert.no_reference"].setEnabled(current_reference(session) is not None)
         table["view.onion"].setChecked(options.onion)
         table["view.final"].setChecked(options.final)
         table[ARRANGEMENT_ACTIONS[options.arrangement]].setChecked(True)
@@ -285,6 +300,7 @@ class Editor(QObject):
             return
         if self.export_dialog is not None:
             self.export_dialog.close()
+        self.incoming.stop()
         self.playback.stop()
         self.preview.stop()
         self.settings.keep("window/geometry", self.window.saveGeometry())
