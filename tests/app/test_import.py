@@ -74,7 +74,7 @@ def test_an_svg_becomes_the_keyframe_at_the_playhead_in_one_undo_step(hand, sket
     assert keyframe.drawing.style.fill == "#ff0000"
     assert keyframe.drawing.outlines[0].points.tolist() == [[100, 100], [500, 100], [500, 500], [100, 500]]
     assert hand.message == (
-        "Sketch.svg: 3 outlines imported; not taken over: a text, "
+        "Imported sketch.svg as the keyframe at 7, 3 outlines; not taken over: a text, "
         "1 of 2 styles (a keyframe has one, the first is used)."
     )
     assert hand.session.undo_stack.undoText() == "Import SVG"
@@ -91,7 +91,7 @@ def test_an_svg_becomes_layers_named_like_its_paths(hand, sketch, monkeypatch, q
     assert [k.drawing.style.fill for x in layers for k in x.keyframes] == ["#ff0000", "#0000ff"]
     assert layers[2].keyframes[0].drawing.style.width == 3
     assert hand.session.layer is layers[2]
-    assert hand.message == "Sketch.svg: 2 layers imported; not taken over: a text."
+    assert hand.message == "Imported sketch.svg as 2 layers; not taken over: a text."
     hand.menu("edit.undo")
     assert len(hand.session.document.layers) == 1
 

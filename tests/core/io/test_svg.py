@@ -484,7 +484,7 @@ def test_layers_hold_what_is_painted_alike_and_does_not_overlap():
     )
     assert [len(g) for g in painted_alike(imported.drawings)] == [2, 1, 1, 1]
     document = import_layers(Document(), 3, imported)
-    assert [x.name for x in document.layers] == ["Layer 1", "a", "Imported 2", "b", "Imported 4"]
+    assert [x.name for x in document.layers] == ["Layer 1", "a", "Imported", "b", "Imported 2"]
     assert len({x.id for x in document.layers}) == 5
     assert [x.frames() for x in document.layers] == [(), *[(3,)] * 4]
 
