@@ -16,6 +16,7 @@ from app.dialogs.stage import StageDialog
 from app.editing import Clipboard
 from app.files import Files
 from app.playback import Playback
+from app.preview.alternatives import AlternativesPreview
 from app.preview.spans import SpanPreview
 from app.session import Selection, Session
 from app.settings import Settings
@@ -43,8 +44,11 @@ class Editor(QObject):
         self.clipboard = Clipboard()
         self.plans = PlanCache()
         theme = system_theme(self.settings.text("theme", "system"))
-        self.window = Window(self.session, self.preview, self.view_state, self.playback, self.settings, theme)
-        self.files = Files(self.window, self.session, self.settings, self.window.tell)
+        self.ranked = AlternativesPreview(self.preview, self)
+        self.window = Window(
+            self.session, self.preview, self.ranked, self.view_state, self.playback, self.settings, theme
+        )
+        self.files = Files(self.window, self.session, self.settings, self.preview.with_answers, self.window.tell)
         self.export_dialog: ExportDialog | None = None
         self.window.table.connect_all(self._runs())
         self._connect()
@@ -287,6 +291,7 @@ class Editor(QObject):
             self.export_dialog.close()
         self.playback.stop()
         self.preview.stop()
+        self.ranked.stop()
         self.settings.keep("window/geometry", self.window.saveGeometry())
         event.accept()
 

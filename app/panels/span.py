@@ -1,10 +1,9 @@
 """The span panel: how vertices travel between the two keyframes around the playhead."""
 
-from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QWidget
 
-from app.panels.parts import Section, Segments, label, number_field
+from app.panels.parts import Section, Segments, flat_button, label, number_field
 from app.session import Session
 from app.view import ViewState
 from core.model.document import MOST_TURNS
@@ -25,9 +24,16 @@ class SpanPanel(QWidget):
     """Method, extra turns and the correspondence of the span under the playhead."""
 
     def __init__(
-        self, session: Session, view: ViewState, actions: dict[str, QAction], parent: QWidget | None = None
+        self,
+        session: Session,
+        view: ViewState,
+        actions: dict[str, QAction],
+        alternatives: QWidget,
+        parent: QWidget | None = None,
     ) -> None:
+        """`alternatives` is the panel shown below the correspondence."""
         super().__init__(parent)
+        self.alternatives = alternatives
         self.session, self.view_state = session, view
         self._method_section()
         self._correspondence_section(actions)
@@ -66,14 +72,15 @@ class SpanPanel(QWidget):
         self.lines.chosen.connect(lambda value: self.view_state.set(lines=value))
         self.correspondence_section.box.addWidget(self.lines)
         row = QHBoxLayout()
-        self.add = _flat_button("Add anchors (C)", "Take the correspond tool: drag from outline to outline")
+        self.add = flat_button("Add anchors (C)", "Take the correspond tool: drag from outline to outline")
         self.add.clicked.connect(actions["tool.correspond"].trigger)
-        self.clear = _flat_button("Clear anchors", "Forget every pair that you fixed in this span")
+        self.clear = flat_button("Clear anchors", "Forget every pair that you fixed in this span")
         self.clear.clicked.connect(self._on_clear)
         row.addWidget(self.add)
         row.addStretch(1)
         row.addWidget(self.clear)
         self.correspondence_section.box.addLayout(row)
+        self.correspondence_section.box.addWidget(self.alternatives)
 
     def _refresh(self, *_: object) -> None:
         before, after = self.session.span_keyframes()
@@ -129,12 +136,3 @@ class SpanPanel(QWidget):
         frame = self._frame()
         if frame is not None:
             self.session.apply("Clear Anchors", clear_anchors, self.session.layer.id, frame)
-
-
-def _flat_button(text: str, tip: str) -> QPushButton:
-    button = QPushButton(text)
-    button.setProperty("flat", True)
-    button.setFlat(True)
-    button.setToolTip(tip)
-    button.setCursor(Qt.CursorShape.PointingHandCursor)
-    return button

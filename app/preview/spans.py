@@ -2,6 +2,7 @@
 
 from collections import OrderedDict
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -10,8 +11,10 @@ from app.preview.worker import NewestWins
 from core.correspondence.matching import match, match_quick
 from core.correspondence.pairing import Correspondence
 from core.errors import InkbetweenError
-from core.model.document import Keyframe
+from core.geometry.outline import perimeter
+from core.model.document import Document, Keyframe
 from core.model.drawing import Drawing, Outline
+from core.model.edits import store_answer
 from core.model.inbetweens import PairMatch, Rows, SpanMatch, SpanPlan, paired_outlines, plan_span
 
 PAUSE_MS = 40
@@ -21,6 +24,8 @@ MOST_DRAGGED_ROWS = 6000
 MOST_KEPT = 256
 
 Pairs = tuple[tuple[int, int], ...]
+PairRef = tuple[int, int, int]
+"""The frame that a span begins at, and the ids of two outlines."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +84,7 @@ class SpanPreview(QObject):
         self._plans: OrderedDict[object, tuple[object, SpanPlan]] = OrderedDict()
         self._pairs: OrderedDict[object, tuple[object, Pairs]] = OrderedDict()
         self._wanted: OrderedDict[object, _Task] = OrderedDict()
+        self._trial: tuple[PairRef, Correspondence] | None = None
         self._coarse: tuple[_Solved, bool, _Solved] | None = None
         self._worker = NewestWins(self)
         self._worker.finished.connect(self._on_solved)
@@ -110,11 +116,47 @@ class SpanPreview(QObject):
         _touch(self._plans, key)
         return found[1]
 
+    def main_pair(self, before: Keyframe, after: Keyframe) -> tuple[Outline, Outline] | None:
+        """Return the pair of outlines that a person means by "the" correspondence: that of the longest outline."""
+        pairs = self._paired(before.drawing, after.drawing, before)
+        outlines = [(before.drawing.outline(i), after.drawing.outline(j)) for i, j in pairs]
+        return max(outlines, key=lambda ab: perimeter(ab[0].points, closed=ab[0].closed), default=None)
+
+    def correspondence(self, before: Keyframe, after: Keyframe, pair: tuple[int, int]) -> Correspondence:
+        """Return the correspondence of two outlines that the canvas shows now."""
+        for task in self._tasks(before, after):
+            if (task.before.id, task.after.id) == pair:
+                return self._solved(task).correspondence
+        raise KeyError(f"outlines {pair} are no pair")
+
+    def try_out(self, ref: PairRef | None, correspondence: Correspondence | None = None) -> None:
+        """Show the in-betweens of another correspondence for a while, or, without one, the real ones again."""
+        trial = (ref, correspondence) if ref is not None and correspondence is not None else None
+        if trial != self._trial:
+            self._trial = trial
+            self.planned.emit()
+
+    def with_answers(self, document: Document) -> Document:
+        """Return the document with every answer of the solver that is known stored in its spans.
+
+        A later version of the solver may answer differently; a film that was saved shall not change with it.
+        """
+        for layer in document.layers:
+            for before, after in pairwise(layer.keyframes):
+                for task in self._tasks(before, after):
+                    solved = self._exact.get(task.key())
+                    if task.kept is None and solved is not None:
+                        ids = task.before.id, task.after.id
+                        document = store_answer(document, layer.id, before.frame, *ids, solved.correspondence)
+        return document
+
     def _tasks(self, before: Keyframe, after: Keyframe) -> list[_Task]:
         tasks = []
         for i, j in self._paired(before.drawing, after.drawing, before):
             made = before.span.pair_of(i, j)
             kept = made.correspondence if made else None
+            if self._trial is not None and self._trial[0] == (before.frame, i, j):
+                kept = self._trial[1]
             a, b = before.drawing.outline(i), after.drawing.outline(j)
             tasks.append(_Task(a, b, made.held if made else (), (before.frame, after.frame), kept))
         return tasks

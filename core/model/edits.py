@@ -27,6 +27,7 @@ from core.model.pair_edits import (
     pair_outlines_by_hand,
     set_muted,
     solve_again,
+    store_answer,
 )
 from core.model.parts import keyframe_of, with_keyframe
 from core.model.positions import Positions, after_deletion, after_insertion, holding, same_build
@@ -58,6 +59,7 @@ __all__ = [
     "set_stage",
     "set_style",
     "solve_again",
+    "store_answer",
 ]
 
 NOT_MOVED: Mapping[int, int] = {}
