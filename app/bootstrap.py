@@ -9,7 +9,7 @@ from PySide6.QtGui import QCloseEvent, QGuiApplication, QIcon
 from PySide6.QtWidgets import QApplication, QMenu
 
 import resources
-from app import editing
+from app import editing, matching
 from app.dialogs.export import ExportDialog
 from app.dialogs.help import show_about, show_keys
 from app.dialogs.stage import StageDialog
@@ -23,11 +23,12 @@ from app.settings import Settings
 from app.theme import icon, palette, system_theme
 from app.view import LINES, ViewState
 from app.window import Window
-from core.model.edits import clear_anchors, set_stage
+from core.model.edits import clear_anchors, set_stage, solve_again
 from core.model.inbetweens import PlanCache
 
 ARRANGEMENT_ACTIONS = {"overlaid": "view.overlaid", "side by side": "view.side", "compare": "view.compare"}
 THEME_ACTIONS = {"system": "view.theme_system", "light": "view.theme_light", "dark": "view.theme_dark"}
+SPAN_ACTIONS = ("span.clear", "span.again", "span.flip", "span.shift_on", "span.shift_back", "view.compare")
 METHOD_ACTIONS = {"linear": "span.linear", "intrinsic": "span.intrinsic"}
 
 
@@ -104,6 +105,7 @@ class Editor(QObject):
         runs = {
             "view.onion": lambda: view.set(onion=not view.options.onion),
             "view.lines": self._next_lines,
+            "view.hues": lambda: view.set(hues=not view.options.hues),
             "view.final": lambda: view.set(final=not view.options.final),
             "view.fit": canvas.fit,
             "view.zoom_in": lambda: canvas.zoom(1.25),
@@ -121,6 +123,10 @@ class Editor(QObject):
             "key.copy": lambda: editing.copy_to_other_keyframe(session),
             "key.delete": lambda: editing.delete_current_keyframe(session),
             "span.clear": self._clear_anchors,
+            "span.again": self._solve_again,
+            "span.flip": lambda: matching.flip(session, self.preview),
+            "span.shift_on": lambda: matching.shift(session, self.preview, 1),
+            "span.shift_back": lambda: matching.shift(session, self.preview, -1),
             "play.toggle": playback.toggle,
             "play.loop": lambda: playback.set_loop(not playback.loop),
             "play.previous": lambda: self._step(-1),
@@ -145,6 +151,11 @@ class Editor(QObject):
         before, after = self.session.span_keyframes()
         if before is not None and after is not None:
             self.session.apply("Clear Anchors", clear_anchors, self.session.layer.id, before.frame)
+
+    def _solve_again(self) -> None:
+        before, after = self.session.span_keyframes()
+        if before is not None and after is not None:
+            self.session.apply("Solve Again", solve_again, self.session.layer.id, before.frame)
 
     # connections
 
@@ -184,12 +195,13 @@ class Editor(QObject):
         table["edit.redo"].setText(f"Redo {stack.redoText()}".rstrip())
         before, after = session.span_keyframes()
         there = before is not None and after is not None
-        for name in (*METHOD_ACTIONS.values(), "span.clear", "view.compare"):
+        for name in (*METHOD_ACTIONS.values(), *SPAN_ACTIONS):
             table[name].setEnabled(there)
         if before is not None and there:
             table[METHOD_ACTIONS[before.span.method]].setChecked(True)
         table["key.delete"].setEnabled(session.layer.keyframe_at(session.frame) is not None)
         table["view.onion"].setChecked(options.onion)
+        table["view.hues"].setChecked(options.hues)
         table["view.final"].setChecked(options.final)
         table[ARRANGEMENT_ACTIONS[options.arrangement]].setChecked(True)
         self._show_playing()

@@ -145,6 +145,7 @@ class Window(QMainWindow):
         bar = self.statusBar()
         bar.setSizeGripEnabled(False)
         self.hint_label = QLabel()
+        self.hint_label.setMinimumWidth(1)  # a narrow window cuts the hint, not the window's width
         self.place_label = QLabel()
         self.place_label.setMinimumWidth(90)
         self.zoom_label = QLabel()
@@ -198,6 +199,7 @@ class Window(QMainWindow):
         if tool is not self.canvas.tool:
             self.canvas.set_tool(tool)
         self.hint_label.setText(tool.hint)
+        self.hint_label.setToolTip(tool.hint)
         self.canvas.setFocus()
 
     def tell(self, text: str, kind: str = "error") -> None:
