@@ -342,7 +342,8 @@ def run(path: str | None = None, *, sample: bool = False) -> int:
     if path is not None:
         opened = editor.files.open_sample(Path(path)) if sample else editor.files.open_path(Path(path))
         if sample and opened:
-            editor.session.go_to(max(1, editor.session.document.length // 2))
+            first, second = editor.session.layer.frames()[:2]
+            editor.session.go_to((first + second) // 2)  # where the in-between is farthest from both
     editor.window.show()
     signal.signal(signal.SIGINT, lambda *_: editor.window.close())
     beat = QTimer()  # Python sees Ctrl+C only when it runs now and then
