@@ -9,10 +9,12 @@ import numpy.typing as npt
 
 from core.errors import GeometryError
 from core.geometry.outline import FloatArray, as_points
+from core.methods.assembly import assemble
 from core.methods.intrinsic import IntrinsicPaths
 from core.methods.linear import LinearPaths
+from core.methods.rigid import RigidPaths, rigid_paths
 
-METHODS: tuple[str, ...] = ("linear", "intrinsic")
+METHODS: tuple[str, ...] = ("linear", "intrinsic", "rigid")
 """The names of the methods, from the simplest to the best."""
 
 
@@ -38,10 +40,19 @@ class AlignedPair:
 
 @dataclass(frozen=True, eq=False)
 class DrawingPlan:
-    """Paths of all vertices of a drawing over one span; made by `plan_drawing`."""
+    """Paths of all vertices of a drawing over one span; made by `plan_drawing`.
+
+    Attributes
+    ----------
+    pairs : tuple of AlignedPair
+    paths : LinearPaths, IntrinsicPaths or RigidPaths
+    note : str
+        What the method could not do as it should, in a sentence for the artist; empty when all is well.
+    """
 
     pairs: tuple[AlignedPair, ...]
-    paths: LinearPaths | IntrinsicPaths
+    paths: LinearPaths | IntrinsicPaths | RigidPaths
+    note: str = ""
 
     def evaluate(self, t: npt.ArrayLike) -> tuple[FloatArray, ...]:
         """Return the in-betweens at the times `t` (T,): an array (T, k_i, 2) for every outline, in px.
@@ -72,6 +83,11 @@ class Plan:
 
     drawing: DrawingPlan
 
+    @property
+    def note(self) -> str:
+        """See `DrawingPlan`."""
+        return self.drawing.note
+
     def evaluate(self, t: npt.ArrayLike) -> FloatArray:
         """Return the in-betweens at the times `t` (T,) as (T, n, 2), in px; see `DrawingPlan.evaluate`."""
         return self.drawing.evaluate(t)[0]
@@ -99,7 +115,7 @@ def inbetween(
     closed : bool
         Whether the last vertex is joined to the first.
     turns : int
-        Whole turns added to the shortest one (intrinsic only); positive from x towards y.
+        Whole turns added to the shortest one (not for linear); positive from x towards y.
 
     Returns
     -------
@@ -115,8 +131,10 @@ def inbetween(
     Notes
     -----
     `linear` is (1 - t) a + t b. `intrinsic` interpolates lengths and headings of the edges (Sederberg, Gao, Wang
-    and Mu, "2-D shape blending", SIGGRAPH 1993). It depends neither on scale, position, start vertex and drawing
-    direction nor on which keyframe comes first; only an exact half turn has no shorter side and goes from x
+    and Mu, "2-D shape blending", SIGGRAPH 1993). `rigid` lets the interior turn and stretch as one (Alexa,
+    Cohen-Or and Levin, SIGGRAPH 2000); where that cannot be it falls back to intrinsic, which the `note` of the
+    plan says. Both depend neither on scale, position, start vertex and drawing direction nor on which keyframe
+    comes first (rigid up to its choice of a mesh); only an exact half turn has no shorter side and goes from x
     towards y.
 
     Examples
@@ -173,7 +191,10 @@ def plan_drawing(pairs: Sequence[AlignedPair], *, method: str = "intrinsic", tur
     if method == "linear" or not pairs:
         return DrawingPlan(tuple(pairs), LinearPaths.of([(p.left, p.right) for p in pairs]))
     outlines = [(p.left, p.right, p.closed) for p in pairs]
-    return DrawingPlan(tuple(pairs), IntrinsicPaths.of(outlines, turns=turns))
+    if method == "rigid":
+        paths, note = rigid_paths(outlines, turns=turns)
+        return DrawingPlan(tuple(pairs), paths, note)
+    return DrawingPlan(tuple(pairs), IntrinsicPaths.of(assemble(outlines, turns=turns)))
 
 
 def _as_times(t: npt.ArrayLike) -> FloatArray:
