@@ -1,7 +1,7 @@
 """One interior with its outlines: found once, then evaluated at any time."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -162,7 +162,7 @@ def _unfolded(boundary: Cage, means: Sequence[float], level: Level) -> Carried |
         return None
     if image is None or not np.isfinite(image).all():
         return None
-    return Carried(carried.mesh, carried.elements, image, carried.turn, carried.rim_turn)
+    return replace(carried, image=image)
 
 
 def _fitted(

@@ -37,6 +37,8 @@ class Carried:
         By how much the boundary around each triangle turns, radians, whole turns told apart.
     rim_turn : (r,) float array
         The same of every boundary edge itself.
+    width : float
+        How wide the drawing is, if it is a strip: twice its area over its perimeter.
     """
 
     mesh: Mesh
@@ -44,6 +46,7 @@ class Carried:
     image: ComplexArray
     turn: FloatArray
     rim_turn: FloatArray
+    width: float
 
     def maps(self) -> Maps:
         """Return the map of every triangle."""
@@ -77,13 +80,14 @@ def carry(cage: Cage, mean_turns: Sequence[float]) -> Carried:
     sizes = np.maximum((own + own[_before(after)]) / 2, FINEST)
     mesh = triangulate(cage.before, after, sizes)
     elements = Elements.of(mesh)
+    width = 2 * float(mesh.areas.sum()) / float(own.sum())
     rim, matrix = mesh.rim, elements.stiffness
     inner = Factor(matrix[rim:, rim:]) if len(mesh.points) > rim else None
     across = matrix[rim:, :rim]
     field = np.concatenate([rim_field, np.zeros(len(mesh.points) - rim)])
     image = np.concatenate([cage.after, np.zeros(len(mesh.points) - rim, np.complex128)])
     if inner is None:
-        return Carried(mesh, elements, image, rim_field.real[mesh.triangles].mean(axis=1), edge.real)
+        return Carried(mesh, elements, image, rim_field.real[mesh.triangles].mean(axis=1), edge.real, width)
     field[rim:] = -inner.solve(across @ field[:rim])
     inside = field[mesh.triangles].mean(axis=1)
     fixed = across @ cage.after
@@ -93,7 +97,7 @@ def carry(cage: Cage, mean_turns: Sequence[float]) -> Carried:
         p = elements.maps(image).p
         size = np.abs(p)
         wanted = Maps(np.where(size > 0, p / np.maximum(size, 1e-300), 1.0), wanted.q)
-    return Carried(mesh, elements, image, inside.real, edge.real)
+    return Carried(mesh, elements, image, inside.real, edge.real, width)
 
 
 def _boundary(cage: Cage, mean_turns: Sequence[float]) -> tuple[ComplexArray, FloatArray, FloatArray]:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from core.geometry.crossings import ComplexArray
+from core.geometry.crossings import ComplexArray, IntArray
 from core.geometry.outline import FloatArray
 from core.methods.carry import Carried
 from core.methods.elements import Elements, Factor, Maps
@@ -28,8 +28,18 @@ SMOOTH = 0.03
 STEEPEST = 50.0
 """Largest coupling of neighbouring triangles: length of their side over the distance of their middles."""
 
+LEAST = 1e-12
+"""What no length, stretch or strain is below, for a drawing of area 1."""
+
 ASTRAY = 1.2
 """Radians by which an angle may differ from the triangle's own; at a right angle the triangle would collapse."""
+
+
+BEND = 2.0
+"""Widths of the drawing over which its turning accounts for the strain of a bend."""
+
+BULGE = 3.0
+"""Exponent of the mean of the stretches, before and after, in a bend; 1 where there is none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,24 +50,37 @@ class Interior:
     ----------
     turn : (m,) float array
         Angle by which each triangle turns, radians.
-    still, going : sparse (n, m) complex matrices
-        Pull of every triangle on the vertices, weighted by 1 - u and by u.
+    stretch : (2, m) float array
+        Largest and least stretch of each triangle, for equal areas of both keyframes.
+    exponent : (m,) float array
+        Of the mean of 1 and the stretch that is wanted in between.
+    pulls : sparse (n, 4 m) complex matrix
+        What each triangle pulls at its corners for the four parts of the map that it wants.
     factor : Factor
         Of the vertices but the first, which stays in the origin.
     """
 
     turn: FloatArray
-    still: Any
-    going: Any
+    stretch: FloatArray
+    exponent: FloatArray
+    pulls: Any
     factor: Factor
 
     def vertices(self, u: FloatArray) -> ComplexArray:
         """Vertices (n, T) at the times `u` (T,): up to a shift, those of the mesh at 0 and of its image at 1."""
+        high, low = (self._gain(s, np.clip(u, 0.0, 1.0)) for s in self.stretch)
         spin = np.exp(1j * self.turn[:, None] * u)
-        pull = self.still @ (spin * (1 - u)) + self.going @ (spin * u)
+        alike, apart = spin * ((high + low) / 2), spin * ((high - low) / 2)
+        pull = self.pulls @ np.concatenate([alike * (1 - u), alike * u, apart * (1 - u), apart * u])
         out = np.zeros(pull.shape, np.complex128)
         out[1:] = self.factor.solve(pull[1:])
         return out
+
+    def _gain(self, stretch: FloatArray, u: FloatArray) -> FloatArray:
+        """Stretch wanted over the linear one, (m, T)."""
+        power = self.exponent
+        wanted = 1 + np.outer(stretch**power - 1, u)
+        return np.asarray(wanted ** (1 / power)[:, None] / (1 + np.outer(stretch - 1, u)), np.float64)
 
 
 def travel(carried: Carried, before: float, after: float) -> Interior:
@@ -65,9 +88,14 @@ def travel(carried: Carried, before: float, after: float) -> Interior:
 
     Notes
     -----
-    With turn a and remaining map S of a triangle (J = R(a) S), it wants to be R(u a) ((1 - u) I + u S). This is the
-    same from either end, and so is the metric of the triangles half way, (I + S) / 2, in which all of them are
+    With turn a and remaining map S of a triangle (J = R(a) S), it wants to be R(u a) ((1 - u) I + u S). This is
+    the same from either end, and so is the metric of the triangles half way, (I + S) / 2, in which all of them are
     joined: exchanging the keyframes changes nothing.
+
+    In a bend the inside of a knee is not pressed together in proportion to the angle but mostly at the last. There
+    the stretches s wanted are power means of 1 and s, which are above the linear ones (exponent 2 is the
+    interpolation of metrics of Chen, Weber, Keren and Ben-Chen, "Planar shape interpolation with bounded
+    distortion", SIGGRAPH 2013).
     """
     maps = carried.maps()
     turn = even_turns(carried, maps)
@@ -76,8 +104,30 @@ def travel(carried: Carried, before: float, after: float) -> Interior:
     scaled = Maps(np.full(len(turn), before, np.complex128), np.zeros(len(turn), np.complex128))
     half_way = carried.elements.mapped(middle.after(scaled))
     back = middle.inverse()
-    still, going = (_pulls(half_way, wanted) for wanted in (back, grown.after(back)))
-    return Interior(turn, still, going, Factor(half_way.stiffness[1:, 1:]))
+    axes = Maps(np.zeros(len(turn), np.complex128), _axes(maps)).after(back)
+    pulls = [_pulls(half_way, wanted) for wanted in (back, grown.after(back), axes, grown.after(axes))]
+    stretch = np.stack([np.abs(maps.p) + np.abs(maps.q), np.abs(maps.p) - np.abs(maps.q)])
+    stretch = np.maximum(stretch, LEAST)
+    exponent = 1 + (BULGE - 1) * bends(carried, turn, stretch)
+    factor = Factor(half_way.stiffness[1:, 1:])
+    return Interior(turn, stretch, exponent, sparse.hstack(pulls, format="csr"), factor)
+
+
+def bends(carried: Carried, turn: FloatArray, stretch: FloatArray) -> FloatArray:
+    """How much of the strain of each triangle is that of a bend, (m,), 0 to 1.
+
+    A strip that bends is strained by its change of direction over the distance from its middle; what is
+    strained more than its neighbourhood turns is stretched, as the letters of a wider font are.
+    """
+    pairs, _ = carried.mesh.neighbours
+    count = len(turn)
+    apart = sum(_distances(p, carried.mesh.triangles, pairs) for p in (carried.mesh.points, carried.image)) / 2
+    steep = (np.diff(turn[pairs], axis=1)[:, 0] / np.maximum(apart, LEAST)) ** 2
+    both = pairs.ravel()
+    near = np.bincount(both, np.repeat(steep, 2), count) / np.maximum(np.bincount(both, minlength=count), 1)
+    bent = 2 * near * (BEND * carried.width) ** 2
+    strain = (np.log(stretch) ** 2).sum(axis=0)
+    return np.asarray(bent**2 / (bent**2 + strain**2 + LEAST))
 
 
 def even_turns(carried: Carried, maps: Maps) -> FloatArray:
@@ -102,10 +152,9 @@ def _coupling(carried: Carried) -> Any:
     pairs, ends = carried.mesh.neighbours
     weights = np.zeros(len(pairs))
     for points in (carried.mesh.points, carried.image):
-        middles = points[carried.mesh.triangles].mean(axis=1)
-        apart = np.abs(middles[pairs[:, 0]] - middles[pairs[:, 1]])
+        apart = _distances(points, carried.mesh.triangles, pairs)
         side = np.abs(points[ends[:, 0]] - points[ends[:, 1]])
-        weights += np.minimum(side / np.maximum(apart, 1e-300), STEEPEST) / 2
+        weights += np.minimum(side / np.maximum(apart, LEAST), STEEPEST) / 2
     count = len(carried.mesh.triangles)
     i, j = pairs.T
     own = np.bincount(i, weights, count) + np.bincount(j, weights, count)
@@ -113,6 +162,19 @@ def _coupling(carried: Carried) -> Any:
     values = np.concatenate([own, -weights, -weights])
     rows, columns = np.concatenate([every, i, j]), np.concatenate([every, j, i])
     return sparse.csc_matrix((values, (rows, columns)), shape=(count, count))
+
+
+def _distances(points: ComplexArray, triangles: IntArray, pairs: IntArray) -> FloatArray:
+    """From the middle of the one to that of the other of each pair (k, 2) of triangles."""
+    middles = points[triangles].mean(axis=1)
+    return np.asarray(np.abs(middles[pairs[:, 0]] - middles[pairs[:, 1]]))
+
+
+def _axes(maps: Maps) -> ComplexArray:
+    """Twice the angle of the direction of largest stretch, as a number of size 1, (m,)."""
+    axis = maps.q * maps.p.conj()
+    size = np.abs(axis)
+    return np.where(size > 0, axis / np.maximum(size, 1e-300), 1.0)
 
 
 def _pulls(half_way: Elements, wanted: Maps) -> Any:
