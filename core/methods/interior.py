@@ -35,7 +35,7 @@ ASTRAY = 1.2
 """Radians by which an angle may differ from the triangle's own; at a right angle the triangle would collapse."""
 
 
-BEND = 2.0
+BEND = 1.5
 """Widths of the drawing over which its turning accounts for the strain of a bend."""
 
 BULGE = 3.0
