@@ -85,7 +85,7 @@ class Body:
         """Vertices (T, n) at the times `t` (T,)."""
         u = 1 - t if self.backwards else t
         cage = self.interior.vertices(u)[self.places] * self.spin
-        return np.ascontiguousarray(self.detail.vertices(u, cage).T)
+        return self.detail.vertices(u, cage)
 
 
 def plan_body(

@@ -18,42 +18,53 @@ SHORTEST = 1e-3
 class Detail:
     """All vertices from those of the cage; made by `attach`.
 
+    The edges are kept in the order `fold`, in which the matrix of every outline is a narrow band.
+
     Attributes
     ----------
-    start, turn : (n,) float array
-        Heading of every edge before, and its turn, radians.
+    half_headings : (2, n) float array
+        Half the heading of every edge at its vertex before and after, radians.
     lengths : (2, n) float array
-        Of every edge before and after.
-    stiff : (n,) float array
-        Weight of every edge.
+        Length of every edge before and after, times its weight.
+    behind : (n,) int array
+        Place of the edge before each edge.
     held : (k,) int array
-        The vertices of the cage.
+        Places of the vertices of the cage.
     hold : (k,) float array
         Weight with which they are held.
-    rings : tuple of _Ring
+    fold : (n,) int array
+        The vertex at each place.
+    bands : tuple of (slice, (3, m) float array)
+        Places of every outline and the Cholesky factor of its matrix.
     """
 
-    start: FloatArray
-    turn: FloatArray
+    half_headings: FloatArray
     lengths: FloatArray
-    stiff: FloatArray
+    behind: IntArray
     held: IntArray
     hold: FloatArray
-    rings: "tuple[_Ring, ...]"
+    fold: IntArray
+    bands: tuple[tuple[slice, FloatArray], ...]
 
     def vertices(self, u: FloatArray, cage: ComplexArray) -> ComplexArray:
-        """Vertices (n, T) at the times `u` (T,), whose cage is at `cage` (k, T)."""
-        edges = np.exp(1j * (self.start[:, None] + self.turn[:, None] * u))
-        edges *= self.lengths[0][:, None] * (1 - u) + self.lengths[1][:, None] * u
-        edges *= self.stiff[:, None]
-        right: ComplexArray = -edges
-        for ring in self.rings:
-            right[ring.rows.start + 1 : ring.rows.stop] += edges[ring.rows.start : ring.rows.stop - 1]
-            right[ring.rows.start] += edges[ring.rows.stop - 1]
-        right[self.held] += self.hold[:, None] * cage
-        for ring in self.rings:
-            right[ring.rows] = ring.solve(right[ring.rows])
-        return right
+        """Vertices (T, n) at the times `u` (T,), whose cage is at `cage` (k, T)."""
+        shares = np.stack([1 - u, u], axis=1)
+        tangent = np.tan(shares @ self.half_headings)  # of the half: cheaper than a sine and a cosine
+        lengths = shares @ self.lengths
+        part = 2 * lengths / (1 + tangent * tangent)
+        edges = np.stack([part - lengths, part * tangent])
+        right = edges[..., self.behind] - edges
+        held = self.hold * cage.T
+        right[0][:, self.held] += held.real
+        right[1][:, self.held] += held.imag
+        rows = right.reshape(2 * len(u), -1)
+        for places, band in self.bands:
+            # rows of outlines are columns to the library, which asks for them one after the other
+            found, _ = lapack.dpbtrs(band, rows[:, places].T, lower=1)
+            rows[:, places] = found.T
+        out = np.zeros(right.shape[1:], np.complex128)
+        out.real[:, self.fold], out.imag[:, self.fold] = right
+        return out
 
 
 def attach(
@@ -77,63 +88,55 @@ def attach(
     -----
     Least squares over all vertices x: sum over edges |step of x - edge wanted|^2 / length, and over the vertices
     of the cage share of the outline |x - where the cage has it|^2 / loose^2; edges wanted are those of the
-    intrinsic method.
-    The matrix of each outline is tridiagonal up to its corners, and the same at all times.
+    intrinsic method. The matrix of each outline is tridiagonal up to its corners, and the same at all times;
+    folded in half, first vertex, last, second, last but one, neighbours are at most two places apart.
     """
     edges = joined(outlines)
     turn = _nearest_turns(edges.turn, edges.before + edges.after, rows, held, turns)
     mean = (edges.before + edges.after) / 2
-    length = np.maximum(mean, SHORTEST * float(mean.mean()))
+    stiff = 1 / np.maximum(mean, SHORTEST * float(mean.mean()))
     hold = _shares(mean, rows, held) / loose**2
     diagonal = np.zeros(len(mean))
     diagonal[held] = hold
-    rings = tuple(_Ring.of(r, 1 / length[r], diagonal[r]) for r in rows)
-    lengths = np.stack([edges.before, edges.after])
-    return Detail(edges.start, turn, lengths, 1 / length, held, hold, rings)
+    fold = np.concatenate([r.start + _folded(r.stop - r.start) for r in rows])
+    place = np.zeros_like(fold)
+    place[fold] = np.arange(len(fold))
+    after = next_in_loops(rows)
+    behind = np.zeros_like(after)
+    behind[after] = np.arange(len(after))
+    return Detail(
+        np.stack([edges.start, edges.start + turn])[:, fold] / 2,
+        (stiff * np.stack([edges.before, edges.after]))[:, fold],
+        place[behind[fold]],
+        place[held],
+        hold,
+        fold,
+        tuple((r, _band(stiff[r], diagonal[r])) for r in rows),
+    )
 
 
-@dataclass(frozen=True, eq=False)
-class _Ring:
-    """Factor of the matrix of one outline, folded in half so that neighbours are at most two rows apart.
+def _folded(n: int) -> IntArray:
+    """0, n - 1, 1, n - 2 and so on."""
+    fold = np.zeros(n, np.intp)
+    fold[0::2] = np.arange((n + 1) // 2)
+    fold[1::2] = n - 1 - np.arange(n // 2)
+    return fold
 
-    Attributes
-    ----------
-    rows : slice
-    fold : (n,) int array
-        0, n - 1, 1, n - 2 and so on.
-    band : (3, n) float array
-        Cholesky factor.
-    """
 
-    rows: slice
-    fold: IntArray
-    band: FloatArray
-
-    @classmethod
-    def of(cls, rows: slice, stiff: FloatArray, hold: FloatArray) -> "_Ring":
-        n = len(stiff)
-        fold = np.zeros(n, np.intp)
-        fold[0::2] = np.arange((n + 1) // 2)
-        fold[1::2] = n - 1 - np.arange(n // 2)
-        at = np.zeros(n, np.intp)
-        at[fold] = np.arange(n)
-        band = np.zeros((3, n))
-        band[0] = (hold + stiff + np.roll(stiff, 1))[fold]
-        first, second = at, np.roll(at, -1)
-        low, apart = np.minimum(first, second), np.abs(first - second)
-        np.add.at(band, (apart, low), -stiff)
-        factor, info = lapack.dpbtrf(band, lower=1)
-        if info:
-            raise ArithmeticError("the detail of an outline is not held by its cage")
-        return cls(rows, fold, factor)
-
-    def solve(self, right: ComplexArray) -> ComplexArray:
-        """Solve for the columns (n, T)."""
-        flat = np.asfortranarray(right[self.fold].view(np.float64))
-        found, _ = lapack.dpbtrs(self.band, flat, lower=1, overwrite_b=1)
-        out = np.zeros_like(right)
-        out[self.fold] = np.ascontiguousarray(found).view(np.complex128)
-        return out
+def _band(stiff: FloatArray, hold: FloatArray) -> FloatArray:
+    """Cholesky factor (3, n) of the folded matrix of an outline."""
+    n = len(stiff)
+    fold = _folded(n)
+    place = np.zeros(n, np.intp)
+    place[fold] = np.arange(n)
+    other = np.roll(place, -1)
+    band = np.zeros((3, n))
+    band[0] = (hold + stiff + np.roll(stiff, 1))[fold]
+    np.add.at(band, (np.abs(place - other), np.minimum(place, other)), -stiff)
+    factor, info = lapack.dpbtrf(band, lower=1)
+    if info:
+        raise ArithmeticError("the detail of an outline is not held by its cage")
+    return np.asarray(factor, np.float64)
 
 
 def _shares(mean: FloatArray, rows: Sequence[slice], held: IntArray) -> FloatArray:

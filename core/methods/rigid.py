@@ -19,8 +19,8 @@ from core.methods.placement import Placement
 
 FELL_BACK = "fell back to intrinsic: the interiors cannot be matched"
 
-CELLS = 1 << 18
-"""Vertices times frames computed in one go: bounds the memory of a long row of frames."""
+CELLS = 1 << 14
+"""Vertices times frames computed in one go: few enough for the work arrays to stay in the cache."""
 
 
 @dataclass(frozen=True, eq=False)
