@@ -139,12 +139,10 @@ def _matched(
     spin = complex(m[far] / abs(m[far])) if m[far] != 0 else 1.0
     m, o = (np.round(p / spin, 12) for p in (m, o))
     means = [h.mean_turn() for h in outlines]
-    tried = 0
     for level in LEVELS:
         boundary = cage(m, o, rows, level.tolerance, level.most)
-        if boundary is None or len(boundary.vertices) == tried:
+        if boundary is None:
             continue
-        tried = len(boundary.vertices)
         carried = _unfolded(boundary, means, level)
         if carried is not None:
             return boundary, carried, spin, level.note
