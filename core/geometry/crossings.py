@@ -55,7 +55,7 @@ def crossings(points: FloatArray, *, closed: bool = True) -> IndexArray:
 def frame_crossings(frames: FloatArray, *, closed: bool = True) -> IndexArray:
     """Return the crossings of many outlines (T, n, 2) of one topology as rows (frame, i, j), (k, 3), in order."""
     step = max(1, CHUNK // max(frames.shape[1], 1))
-    found = [_crossings(frames[k : k + step], closed) + [[k, 0, 0]] for k in range(0, len(frames), step)]
+    found = [_crossings(frames[k : k + step], closed) + np.array([k, 0, 0]) for k in range(0, len(frames), step)]
     return np.concatenate(found) if found else np.zeros((0, 3), np.intp)
 
 

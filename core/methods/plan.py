@@ -53,7 +53,7 @@ class DrawingPlan:
         GeometryError
             If a t is not a finite number.
         """
-        times = np.atleast_1d(_as_times(t))
+        times = np.atleast_1d(as_times(t))
         frames = self.paths.evaluate(times)
         first = 0
         outlines = []
@@ -129,7 +129,7 @@ def inbetween(
            [ 1.   ,  2.414],
            [-0.414,  1.   ]])
     """
-    times = _as_times(t)
+    times = as_times(t)
     frames = plan(a, b, method=method, closed=closed, turns=turns).evaluate(np.atleast_1d(times))
     return frames if times.ndim else frames[0]
 
@@ -176,7 +176,7 @@ def plan_drawing(pairs: Sequence[AlignedPair], *, method: str = "intrinsic", tur
     return DrawingPlan(tuple(pairs), IntrinsicPaths.of(outlines, turns=turns))
 
 
-def _as_times(t: npt.ArrayLike) -> FloatArray:
+def as_times(t: npt.ArrayLike) -> FloatArray:
     try:
         times = np.asarray(t, dtype=np.float64)
     except (TypeError, ValueError):
