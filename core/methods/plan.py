@@ -177,6 +177,7 @@ def plan_drawing(pairs: Sequence[AlignedPair], *, method: str = "intrinsic", tur
 
 
 def as_times(t: npt.ArrayLike) -> FloatArray:
+    """Return `t`, a number or a row of them, as a checked float array; `GeometryError` where it is neither."""
     try:
         times = np.asarray(t, dtype=np.float64)
     except (TypeError, ValueError):

@@ -102,7 +102,7 @@ class Chains:
         lengths = lengths / lengths.sum()
         start, end = self.edges.T
         mass = np.bincount(start, lengths / 2, self.count) + np.bincount(end, lengths / 2, self.count)
-        mass = np.asarray(mass, np.float64)
+        mass = mass.astype(np.float64)
         off = -1.0 / lengths
         rows, columns = np.concatenate([start, end]), np.concatenate([end, start])
         springs = sp.csc_matrix((np.concatenate([off, off]), (rows, columns)), shape=(self.count, self.count))

@@ -61,10 +61,13 @@ class Gap:
 
 
 STEPPING = Gap(0.1, 0.5, 1e-6)
-"""For moves to be made."""
+"""For moves that may stop anywhere, against the distance at their start."""
+
+ARRIVING = Gap(0.1, 0.5, 1e-6)
+"""For moves to a known place, against the lesser of the distances at both ends, as the next."""
 
 CERTIFYING = Gap(0.01, 0.2, 4e-7)
-"""For moves that have been made: laxer, else a step that only just passed would be refused later."""
+"""For moves that have been made: laxer, else one that only just passed would be refused later."""
 
 
 def near_pairs(chains: Chains, z: ComplexArray, move: ComplexArray, reach: float) -> Pairs:
@@ -104,7 +107,11 @@ def free_share(z: ComplexArray, move: ComplexArray, pairs: Pairs) -> float:
 
 
 def clear_moves(
-    chains: Chains, starts: ComplexArray, ends: ComplexArray, bends: ComplexArray | None = None
+    chains: Chains,
+    starts: ComplexArray,
+    ends: ComplexArray,
+    bends: ComplexArray | None = None,
+    gap: Gap = CERTIFYING,
 ) -> BoolArray:
     """Whether moves (T, n) -> (T, n) keep every vertex off every edge, as (T,).
 
@@ -117,13 +124,13 @@ def clear_moves(
     step = max(1, BOXES // starts.shape[1])
     if len(starts) > step:
         parts = [slice(k, k + step) for k in range(0, len(starts), step)]
-        found = [clear_moves(chains, starts[k], ends[k], None if bends is None else bends[k]) for k in parts]
+        found = [clear_moves(chains, starts[k], ends[k], None if bends is None else bends[k], gap) for k in parts]
         return np.concatenate(found)
     move = ends - starts
     thick = 0.0 if bends is None else float(np.abs(bends - bends.mean(axis=1, keepdims=True)).max(initial=0.0))
     pairs = near_pairs(chains, starts, move, 2 * thick)
     bend = None if bends is None else bends.ravel()
-    _, clear = _advance(starts.ravel(), move.ravel(), bend, pairs, CERTIFYING)
+    _, clear = _advance(starts.ravel(), move.ravel(), bend, pairs, gap)
     fine = np.ones(len(starts), np.bool_)
     fine[pairs.frame[~clear]] = False
     return fine
@@ -197,6 +204,8 @@ def _advance_slowly(
     place: Triple, move: Triple, thick: FloatArray, start: FloatArray, gap: Gap
 ) -> tuple[FloatArray, BoolArray]:
     (v, u, w), (pv, pu, pw) = place, move
+    if gap is not STEPPING:
+        start = np.minimum(start, distances(v + pv, u + pu, w + pw)[0])
     rate = np.maximum(_approach(move), 1e-300)
     least = gap.of(start - thick) + thick
     reached, clear = np.zeros(len(rate)), np.zeros(len(rate), np.bool_)

@@ -14,7 +14,7 @@ from core.geometry.boxes import IndexArray
 from core.geometry.outline import FloatArray
 from core.repair.barrier import REACH, WEIGHT, Barrier, Terms
 from core.repair.chains import Chains, ComplexArray
-from core.repair.contacts import Pairs, free_share, near_pairs
+from core.repair.contacts import ARRIVING, Pairs, clear_moves, free_share, near_pairs
 
 LONGEST_STEP = 0.05
 """Sizes of the drawing a vertex may go in one Newton step: longer ones meet everything and are cut anyway."""
@@ -134,9 +134,7 @@ class Field:
 
     def may_go(self, z: ComplexArray, target: ComplexArray) -> bool:
         """Whether the straight move from z to the target is clear by the margin of moves to be made."""
-        move = target - z
-        pairs = near_pairs(self.chains, z[None], move[None], 0.0)
-        return free_share(z, move, pairs) >= 1.0
+        return bool(clear_moves(self.chains, z[None], target[None], gap=ARRIVING)[0])
 
 
 def descend(
