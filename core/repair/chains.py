@@ -101,8 +101,9 @@ class Chains:
         lengths = np.maximum(lengths, FINEST * lengths.mean())
         lengths = lengths / lengths.sum()
         start, end = self.edges.T
-        mass = np.bincount(start, lengths / 2, self.count) + np.bincount(end, lengths / 2, self.count)
-        mass = mass.astype(np.float64)
+        mass = np.zeros(self.count)
+        np.add.at(mass, start, lengths / 2)
+        np.add.at(mass, end, lengths / 2)
         off = -1.0 / lengths
         rows, columns = np.concatenate([start, end]), np.concatenate([end, start])
         springs = sp.csc_matrix((np.concatenate([off, off]), (rows, columns)), shape=(self.count, self.count))
