@@ -1,5 +1,6 @@
 """The in-betweening engine: outlines, correspondences, vertex paths, documents. It knows no window."""
 
+from core.certificate import Certificate, Problem, certify, certify_drawing
 from core.correspondence.drawings import OutlinePairs, pair_outlines
 from core.correspondence.matching import Alternative, alternatives, match, match_quick
 from core.correspondence.pairing import Correspondence
@@ -21,6 +22,7 @@ __all__ = [
     "METHODS",
     "Alternative",
     "CancelledError",
+    "Certificate",
     "Correspondence",
     "CorrespondenceError",
     "Document",
@@ -29,8 +31,11 @@ __all__ = [
     "GeometryError",
     "InkbetweenError",
     "OutlinePairs",
+    "Problem",
     "StorageError",
     "alternatives",
+    "certify",
+    "certify_drawing",
     "inbetween",
     "load",
     "match",

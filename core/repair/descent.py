@@ -138,7 +138,14 @@ class Field:
 
 
 def descend(
-    field: Field, z: ComplexArray, target: ComplexArray, *, metric: Metric, weight: float = WEIGHT, steps: int = 12
+    field: Field,
+    z: ComplexArray,
+    target: ComplexArray,
+    *,
+    metric: Metric,
+    weight: float = WEIGHT,
+    steps: int = 12,
+    smallest: float = SMALLEST_STEP,
 ) -> list[ComplexArray]:
     """Return the places passed on the way from z towards the target, z left out; every move between them is clear.
 
@@ -150,13 +157,13 @@ def descend(
         field.checkpoint()
         move = metric.step(z - target, field.barrier.terms(z, pairs), weight)
         longest = float(np.abs(move).max())
-        if longest < SMALLEST_STEP:
+        if longest < smallest:
             break
         move *= min(1.0, LONGEST_STEP / longest)
         before = metric.cost(z - target) + weight * field.barrier.value(z, pairs)
         pairs = near_pairs(field.chains, z[None], move[None], REACH)
         share = free_share(z, move, pairs)
-        while share * longest > SMALLEST_STEP:
+        while share * longest > smallest:
             trial = z + share * move
             if metric.cost(trial - target) + weight * field.barrier.value(trial, pairs) < before:
                 break

@@ -6,7 +6,6 @@ import numpy as np
 from scipy.optimize import linprog
 
 from core.geometry.outline import FloatArray, signed_area
-from core.repair.barrier import WEIGHT
 from core.repair.chains import BoolArray, ComplexArray, as_points
 from core.repair.contacts import clear_moves
 from core.repair.descent import Field, Metric, descend
@@ -22,6 +21,10 @@ MARCH_AT = (0, 2, 4, 7, 12, 20, 32)
 """Rounds at which marches are tried: they cost more than flowing on."""
 
 STAR_STEPS = 24
+"""Moves into which a link of star shapes is cut at first."""
+
+STIFFNESS = 1.0
+"""Weight of the barrier against the springs of the flow, which pull harder than the wishes of a march."""
 
 
 def join(
@@ -102,7 +105,8 @@ class Simplification:
         field, z = self._field, self.place
         metric = Metric(field.springs * self._duration + _diagonal(field.mass))
         aim = metric.solve(field.mass * z)
-        places = descend(field, z, aim, metric=metric, weight=self._duration * WEIGHT, steps=6)
+        weight = self._duration * STIFFNESS
+        places = descend(field, z, aim, metric=metric, weight=weight, steps=6, smallest=1e-8)
         if not places:
             self._duration /= 1.5
             return

@@ -63,7 +63,7 @@ def test_every_crossing_lies_on_both_edges(p):
     for (i, j), place in zip(pairs, crossing_places(p, pairs), strict=True):
         for k in (i, j):
             a, b = p[k], p[(k + 1) % len(p)]
-            u = np.clip((place - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1)
+            u = np.clip((place - a) @ (b - a) / max((b - a) @ (b - a), 1e-300), 0, 1)
             assert np.abs(a + u * (b - a) - place).max() < 1e-9
 
 
