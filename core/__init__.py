@@ -1,8 +1,11 @@
 """The in-betweening engine: outlines, correspondences, vertex paths, documents. It knows no window."""
 
-from core.correspondence.matching import match
+from core.certificate import Certificate, Problem, certify, certify_drawing
+from core.correspondence.drawings import OutlinePairs, pair_outlines
+from core.correspondence.matching import Alternative, alternatives, match, match_quick
 from core.correspondence.pairing import Correspondence
 from core.errors import (
+    CancelledError,
     CorrespondenceError,
     DocumentError,
     FileFormatError,
@@ -11,11 +14,15 @@ from core.errors import (
     StorageError,
 )
 from core.io.project import load, save
-from core.methods.plan import METHODS, inbetween, plan
+from core.methods.plan import METHODS, plan
 from core.model.document import Document
+from core.repair.between import inbetween
 
 __all__ = [
     "METHODS",
+    "Alternative",
+    "CancelledError",
+    "Certificate",
     "Correspondence",
     "CorrespondenceError",
     "Document",
@@ -23,10 +30,17 @@ __all__ = [
     "FileFormatError",
     "GeometryError",
     "InkbetweenError",
+    "OutlinePairs",
+    "Problem",
     "StorageError",
+    "alternatives",
+    "certify",
+    "certify_drawing",
     "inbetween",
     "load",
     "match",
+    "match_quick",
+    "pair_outlines",
     "plan",
     "save",
 ]

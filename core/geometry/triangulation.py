@@ -5,11 +5,14 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 import pythoncdt
 
 from core.errors import GeometryError
-from core.geometry.crossings import ComplexArray, IntArray
+from core.geometry.boxes import IndexArray
 from core.geometry.outline import FloatArray
+
+ComplexArray = npt.NDArray[np.complex128]
 
 PASSES = 7
 """Rounds of putting points into large triangles; each about halves the largest."""
@@ -38,7 +41,7 @@ class Mesh:
     """
 
     points: ComplexArray
-    triangles: IntArray
+    triangles: IndexArray
     rim: int
 
     @cached_property
@@ -47,7 +50,7 @@ class Mesh:
         return triangle_areas(self.points, self.triangles)
 
     @cached_property
-    def neighbours(self) -> tuple[IntArray, IntArray]:
+    def neighbours(self) -> tuple[IndexArray, IndexArray]:
         """Inner edges: the (k, 2) triangles on both sides, and the (k, 2) vertices they join, smaller first."""
         ends = np.sort(_sides(self.triangles).reshape(-1, 2), axis=1)
         key = ends[:, 0] * len(self.points) + ends[:, 1]
@@ -56,13 +59,13 @@ class Mesh:
         return np.stack([order[twin] // 3, order[twin + 1] // 3], axis=1), ends[order[twin]]
 
 
-def triangle_areas(points: ComplexArray, triangles: IntArray) -> FloatArray:
+def triangle_areas(points: ComplexArray, triangles: IndexArray) -> FloatArray:
     """Signed areas (m,) of `triangles` (m, 3), positive where x turns towards y."""
     a, b, c = points[triangles].T
     return np.asarray(((b - a).conj() * (c - a)).imag / 2)
 
 
-def triangulate(boundary: ComplexArray, after: IntArray, sizes: FloatArray) -> Mesh:
+def triangulate(boundary: ComplexArray, after: IndexArray, sizes: FloatArray) -> Mesh:
     """Return a mesh of the inside (even-odd) of closed outlines; every inner edge has an end inside.
 
     Parameters
@@ -128,7 +131,7 @@ def split_chords(mesh: Mesh) -> Mesh:
     return Mesh(points, _divided(mesh.triangles, middle), mesh.rim)
 
 
-def _divided(triangles: IntArray, middle: IntArray) -> IntArray:
+def _divided(triangles: IndexArray, middle: IndexArray) -> IndexArray:
     """Triangles with the vertices `middle` (m, 3) in the sides from each corner to the next; -1 for none."""
     count = (middle >= 0).sum(axis=1)
     # turn each triangle so that its only split side, or the first of its two, comes first
@@ -145,7 +148,7 @@ def _divided(triangles: IntArray, middle: IntArray) -> IntArray:
     return np.concatenate([both[count == k][:, part] for k, parts in patterns.items() for part in parts])
 
 
-def _filled(boundary: ComplexArray, edges: IntArray, sizes: FloatArray) -> Mesh:
+def _filled(boundary: ComplexArray, edges: IndexArray, sizes: FloatArray) -> Mesh:
     cdt = pythoncdt.Triangulation(
         pythoncdt.VertexInsertionOrder.AUTO, pythoncdt.IntersectingConstraintEdges.NOT_ALLOWED, 0.0
     )
@@ -166,14 +169,14 @@ def _filled(boundary: ComplexArray, edges: IntArray, sizes: FloatArray) -> Mesh:
     return Mesh(points, _inside(cdt), len(boundary))
 
 
-def _inside(cdt: pythoncdt.Triangulation) -> IntArray:
+def _inside(cdt: pythoncdt.Triangulation) -> IndexArray:
     """Triangles with an odd number of outlines round them; the first three vertices are the library's own."""
     depth = np.asarray(cdt.calculate_triangle_depths())
-    corners: IntArray = cdt.triangles_array()["vertices"][depth % 2 == 1].astype(np.intp)
+    corners: IndexArray = cdt.triangles_array()["vertices"][depth % 2 == 1].astype(np.intp)
     return corners - 3
 
 
-def _check(mesh: Mesh, edges: IntArray) -> None:
+def _check(mesh: Mesh, edges: IndexArray) -> None:
     """Refuse a mesh that lacks a boundary edge (a vertex lies on it) or has a triangle without area."""
     n = len(mesh.points)
     if not len(mesh.triangles) or mesh.triangles.max() >= n or mesh.triangles.min() < 0:
@@ -186,7 +189,7 @@ def _check(mesh: Mesh, edges: IntArray) -> None:
         raise GeometryError("the outlines all but touch")
 
 
-def _sides(triangles: IntArray) -> IntArray:
+def _sides(triangles: IndexArray) -> IndexArray:
     """Corners at both ends of the three sides, (m, 3, 2)."""
     return np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2)
 

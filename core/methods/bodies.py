@@ -4,9 +4,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from core.geometry.crossings import ComplexArray
 from core.geometry.outline import FloatArray
 from core.methods.assembly import Assembly
+from core.methods.headings import ComplexArray
 
 PROBES = 12
 """Vertices of an outline that tell whether it lies inside another one."""

@@ -6,14 +6,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.errors import GeometryError
-from core.geometry.crossings import ComplexArray, crossing_counts
 from core.geometry.outline import FloatArray
 from core.methods.bodies import signed_area
 from core.methods.cage import Cage, cage
 from core.methods.carry import Carried, carry
 from core.methods.detail import Detail, attach
-from core.methods.headings import Headings
+from core.methods.headings import ComplexArray, Headings
 from core.methods.interior import Interior, travel
+from core.methods.loops import crossing_edges
 from core.methods.untangle import untangle
 
 COARSE = "the interior is matched in the large only"
@@ -181,7 +181,7 @@ def _fitted(
         frames = body.forms(TESTED)
         if not np.isfinite(frames).all():
             return None
-        crossings = int(crossing_counts(frames, rows).sum())
+        crossings = len(crossing_edges(frames, rows))
         said = "; ".join(n for n in (note, LOOSE if loose > LOOSENESS[0] else "") if n)
         if best is None or crossings < best.crossings:
             best = Body(interior, detail, backwards, boundary.places, spin, crossings, said)

@@ -5,8 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.geometry.crossings import ComplexArray, IntArray, crossing_edges, next_in_loops
+from core.geometry.boxes import IndexArray
 from core.geometry.outline import FloatArray
+from core.methods.headings import ComplexArray
+from core.methods.loops import crossing_edges, next_in_loops
 
 FEW = 12
 """Drawings of at most so many vertices are their own cage."""
@@ -39,9 +41,9 @@ class Cage:
         The rows of each outline on the boundary.
     """
 
-    vertices: IntArray
+    vertices: IndexArray
     edges: tuple[slice, ...]
-    places: IntArray
+    places: IndexArray
     before: ComplexArray
     after: ComplexArray
     loops: tuple[slice, ...]
@@ -98,7 +100,7 @@ def _doubled(a: ComplexArray, b: ComplexArray, loops: Sequence[slice]) -> np.nda
 class _Row:
     """All outlines in one row, each from its farthest vertex round to that vertex again, and which are kept."""
 
-    def __init__(self, points: FloatArray, index: IntArray, usable: np.ndarray, ends: IntArray) -> None:
+    def __init__(self, points: FloatArray, index: IndexArray, usable: np.ndarray, ends: IndexArray) -> None:
         self.points, self.index, self.usable, self.ends = points, index, usable, ends
         self.kept = np.zeros(len(points), dtype=bool)
         self.kept[ends] = True
@@ -118,7 +120,7 @@ class _Row:
         usable[ends] = True
         return cls(points[order], order, usable, ends)
 
-    def gaps(self) -> tuple[IntArray, FloatArray, IntArray]:
+    def gaps(self) -> tuple[IndexArray, FloatArray, IndexArray]:
         """Of every segment between kept vertices that has others: its number, widest gap and where it is."""
         kept = np.flatnonzero(self.kept)
         segment = np.cumsum(self.kept) - 1
@@ -152,7 +154,7 @@ class _Row:
         for _ in range(64):
             chosen = self.chosen()
             vertices, loops = np.concatenate(chosen), _rows([len(c) for c in chosen])
-            ties = np.unique(np.concatenate([crossing_edges(p[vertices], loops) for p in (a, b)]))
+            ties = np.unique(crossing_edges(np.stack([a[vertices], b[vertices]]), loops)[:, 1:])
             if not len(ties):
                 return True
             numbers, _, at = self.gaps()
@@ -164,14 +166,14 @@ class _Row:
             self.kept[wanted] = True
         return False
 
-    def chosen(self) -> list[IntArray]:
+    def chosen(self) -> list[IndexArray]:
         """Kept vertices of every outline, each once."""
         stops = np.sort(self.ends)
         pairs = zip(stops[::2], stops[1::2], strict=True)
         return [self.index[first:last][self.kept[first:last]] for first, last in pairs]
 
 
-def _divided(a: ComplexArray, b: ComplexArray, chosen: list[IntArray]) -> Cage | None:
+def _divided(a: ComplexArray, b: ComplexArray, chosen: list[IndexArray]) -> Cage | None:
     """Divide long edges evenly, the same in both keyframes."""
     vertices = np.concatenate(chosen)
     edges = _rows([len(c) for c in chosen])
@@ -186,7 +188,7 @@ def _divided(a: ComplexArray, b: ComplexArray, chosen: list[IntArray]) -> Cage |
     return Cage(vertices, edges, places, before, behind, loops)
 
 
-def _parts(lengths: FloatArray) -> IntArray:
+def _parts(lengths: FloatArray) -> IndexArray:
     """Into how many parts each edge is divided: a thin drawing, about 2 / perimeter wide, into short ones."""
     step = min(STRIP, 2 / float(lengths.sum()))
     for _ in range(64):

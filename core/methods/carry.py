@@ -5,12 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.geometry.crossings import ComplexArray, IntArray, next_in_loops
+from core.geometry.boxes import IndexArray
 from core.geometry.outline import FloatArray
 from core.geometry.triangulation import Mesh, triangulate
 from core.methods.cage import Cage
 from core.methods.elements import Elements, Factor, Maps
-from core.methods.headings import headings, joined
+from core.methods.headings import ComplexArray, headings, joined
+from core.methods.loops import next_in_loops, previous_in_loops
 
 FINEST = 0.04
 """Smallest size wanted of a triangle, for a drawing of area 1."""
@@ -74,11 +75,11 @@ def carry(cage: Cage, mean_turns: Sequence[float]) -> Carried:
     stretch are extended harmonically. The vertices then follow these similarities as nearly as may be (a
     Poisson equation), and a few rounds as rigidly as possible (Sorkine and Alexa 2007).
     """
-    after = next_in_loops(cage.loops)
+    behind = previous_in_loops(cage.loops)
     edge, own, length = _boundary(cage, mean_turns)
-    rim_field = _at_vertices(edge, length, after)
-    sizes = np.maximum((own + own[_before(after)]) / 2, FINEST)
-    mesh = triangulate(cage.before, after, sizes)
+    rim_field = _at_vertices(edge, length, behind)
+    sizes = np.maximum((own + own[behind]) / 2, FINEST)
+    mesh = triangulate(cage.before, next_in_loops(cage.loops), sizes)
     elements = Elements.of(mesh)
     width = 2 * float(mesh.areas.sum()) / float(own.sum())
     rim, matrix = mesh.rim, elements.stiffness
@@ -112,14 +113,7 @@ def _boundary(cage: Cage, mean_turns: Sequence[float]) -> tuple[ComplexArray, Fl
     return found.turn + 1j * stretch, found.before, found.before + found.after
 
 
-def _at_vertices(edge: ComplexArray, weight: FloatArray, after: IntArray) -> ComplexArray:
+def _at_vertices(edge: ComplexArray, weight: FloatArray, behind: IndexArray) -> ComplexArray:
     """Mean of the two edges at every vertex."""
-    behind = _before(after)
     total = weight * edge + weight[behind] * edge[behind]
     return np.asarray(total / (weight + weight[behind]), np.complex128)
-
-
-def _before(after: IntArray) -> IntArray:
-    behind = np.zeros_like(after)
-    behind[after] = np.arange(len(after))
-    return behind

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import lapack
 
-from core.geometry.crossings import ComplexArray, IntArray, next_in_loops
+from core.geometry.boxes import IndexArray
 from core.geometry.outline import FloatArray
-from core.methods.headings import TURN, Headings, joined
+from core.methods.headings import TURN, ComplexArray, Headings, joined
+from core.methods.loops import previous_in_loops
 
 SHORTEST = 1e-3
 """Length of edge, over the mean one, below which an edge counts as so long."""
@@ -40,10 +41,10 @@ class Detail:
 
     half_headings: FloatArray
     lengths: FloatArray
-    behind: IntArray
-    held: IntArray
+    behind: IndexArray
+    held: IndexArray
     hold: FloatArray
-    fold: IntArray
+    fold: IndexArray
     bands: tuple[tuple[slice, FloatArray], ...]
 
     def vertices(self, u: FloatArray, cage: ComplexArray) -> ComplexArray:
@@ -68,7 +69,7 @@ class Detail:
 
 
 def attach(
-    outlines: Sequence[Headings], rows: Sequence[slice], held: IntArray, turns: FloatArray, loose: float
+    outlines: Sequence[Headings], rows: Sequence[slice], held: IndexArray, turns: FloatArray, loose: float
 ) -> Detail:
     """Plan the detail of closed outlines.
 
@@ -101,9 +102,7 @@ def attach(
     fold = np.concatenate([r.start + _folded(r.stop - r.start) for r in rows])
     place = np.zeros_like(fold)
     place[fold] = np.arange(len(fold))
-    after = next_in_loops(rows)
-    behind = np.zeros_like(after)
-    behind[after] = np.arange(len(after))
+    behind = previous_in_loops(rows)
     return Detail(
         np.stack([edges.start, edges.start + turn])[:, fold] / 2,
         (stiff * np.stack([edges.before, edges.after]))[:, fold],
@@ -115,7 +114,7 @@ def attach(
     )
 
 
-def _folded(n: int) -> IntArray:
+def _folded(n: int) -> IndexArray:
     """0, n - 1, 1, n - 2 and so on."""
     fold = np.zeros(n, np.intp)
     fold[0::2] = np.arange((n + 1) // 2)
@@ -139,18 +138,15 @@ def _band(stiff: FloatArray, hold: FloatArray) -> FloatArray:
     return np.asarray(factor, np.float64)
 
 
-def _shares(mean: FloatArray, rows: Sequence[slice], held: IntArray) -> FloatArray:
+def _shares(mean: FloatArray, rows: Sequence[slice], held: IndexArray) -> FloatArray:
     """How much of its outline each held vertex stands for: half of it on both sides up to the next ones."""
     segment = _segments(len(mean), rows, held)
     whole = np.bincount(segment, mean, len(held))
-    after = _next_held(rows, held)
-    behind = np.zeros_like(after)
-    behind[after] = np.arange(len(after))
-    return np.asarray((whole + whole[behind]) / 2)
+    return np.asarray((whole + whole[_held_before(rows, held)]) / 2)
 
 
 def _nearest_turns(
-    turn: FloatArray, weight: FloatArray, rows: Sequence[slice], held: IntArray, turns: FloatArray
+    turn: FloatArray, weight: FloatArray, rows: Sequence[slice], held: IndexArray, turns: FloatArray
 ) -> FloatArray:
     """Add the whole turns to every stretch of outline that bring its mean turn nearest to that of the cage."""
     segment = _segments(len(turn), rows, held)
@@ -159,7 +155,7 @@ def _nearest_turns(
     return np.asarray(turn + (TURN * np.rint((turns - mean) / TURN))[segment])
 
 
-def _segments(n: int, rows: Sequence[slice], held: IntArray) -> IntArray:
+def _segments(n: int, rows: Sequence[slice], held: IndexArray) -> IndexArray:
     """Number in `held` of the last held vertex at or before each vertex of its outline, (n,)."""
     number = np.full(n, -1)
     number[held] = np.arange(len(held))
@@ -171,9 +167,9 @@ def _segments(n: int, rows: Sequence[slice], held: IntArray) -> IntArray:
     return number
 
 
-def _next_held(rows: Sequence[slice], held: IntArray) -> IntArray:
-    """Number of the next held vertex of the same outline, (k,)."""
+def _held_before(rows: Sequence[slice], held: IndexArray) -> IndexArray:
+    """Number of the held vertex before each one of the same outline, (k,)."""
     outline = np.searchsorted([r.stop for r in rows], held, side="right")
     counts = np.bincount(outline, minlength=len(rows))
     stops = np.cumsum(counts).tolist()
-    return next_in_loops([slice(s - c, s) for s, c in zip(stops, counts.tolist(), strict=True)])
+    return previous_in_loops([slice(s - c, s) for s, c in zip(stops, counts.tolist(), strict=True)])

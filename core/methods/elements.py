@@ -12,9 +12,10 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from core.geometry.crossings import ComplexArray, IntArray
+from core.geometry.boxes import IndexArray
 from core.geometry.outline import FloatArray
 from core.geometry.triangulation import Mesh
+from core.methods.headings import ComplexArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +72,7 @@ class Elements:
         Derivatives by x of the three hat functions; those by conj(x) are their conjugates.
     """
 
-    triangles: IntArray
+    triangles: IndexArray
     count: int
     areas: FloatArray
     slopes: ComplexArray
@@ -88,7 +89,7 @@ class Elements:
         return self._made(self.triangles, self.count, self.areas * maps.determinant, gone)
 
     @classmethod
-    def _made(cls, triangles: IntArray, count: int, areas: FloatArray, edges: ComplexArray) -> "Elements":
+    def _made(cls, triangles: IndexArray, count: int, areas: FloatArray, edges: ComplexArray) -> "Elements":
         return cls(triangles, count, areas, -0.25j * edges.conj() / areas[:, None])
 
     @cached_property

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from core.geometry.crossings import ComplexArray, IntArray
+from core.geometry.boxes import IndexArray
 from core.geometry.outline import FloatArray
 from core.methods.carry import Carried
 from core.methods.elements import Elements, Factor, Maps
-from core.methods.headings import TURN
+from core.methods.headings import TURN, ComplexArray
 
 DOUBT = 8.0
 """How fast trust in a triangle's own angle falls with the square of the logarithm of its stretch ratio."""
@@ -164,7 +164,7 @@ def _coupling(carried: Carried) -> Any:
     return sparse.csc_matrix((values, (rows, columns)), shape=(count, count))
 
 
-def _distances(points: ComplexArray, triangles: IntArray, pairs: IntArray) -> FloatArray:
+def _distances(points: ComplexArray, triangles: IndexArray, pairs: IndexArray) -> FloatArray:
     """From the middle of the one to that of the other of each pair (k, 2) of triangles."""
     middles = points[triangles].mean(axis=1)
     return np.asarray(np.abs(middles[pairs[:, 0]] - middles[pairs[:, 1]]))

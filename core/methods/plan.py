@@ -64,7 +64,7 @@ class DrawingPlan:
         GeometryError
             If a t is not a finite number.
         """
-        times = np.atleast_1d(_as_times(t))
+        times = np.atleast_1d(as_times(t))
         frames = self.paths.evaluate(times)
         first = 0
         outlines = []
@@ -147,7 +147,7 @@ def inbetween(
            [ 1.   ,  2.414],
            [-0.414,  1.   ]])
     """
-    times = _as_times(t)
+    times = as_times(t)
     frames = plan(a, b, method=method, closed=closed, turns=turns).evaluate(np.atleast_1d(times))
     return frames if times.ndim else frames[0]
 
@@ -197,7 +197,8 @@ def plan_drawing(pairs: Sequence[AlignedPair], *, method: str = "intrinsic", tur
     return DrawingPlan(tuple(pairs), IntrinsicPaths.of(assemble(outlines, turns=turns)))
 
 
-def _as_times(t: npt.ArrayLike) -> FloatArray:
+def as_times(t: npt.ArrayLike) -> FloatArray:
+    """Return `t`, a number or a row of them, as a checked float array; `GeometryError` where it is neither."""
     try:
         times = np.asarray(t, dtype=np.float64)
     except (TypeError, ValueError):

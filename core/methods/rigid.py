@@ -8,13 +8,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.geometry.crossings import ComplexArray, IntArray, crossing_counts
+from core.geometry.boxes import IndexArray
 from core.geometry.outline import FloatArray
 from core.methods.assembly import Assembly, assemble, in_a_row
 from core.methods.bodies import bodies
 from core.methods.body import TESTED, Body, plan_body
 from core.methods.bridges import Bridge
+from core.methods.headings import ComplexArray
 from core.methods.intrinsic import IntrinsicPaths
+from core.methods.loops import as_pairs, crossing_edges
 from core.methods.placement import Placement
 
 FELL_BACK = "fell back to intrinsic: the interiors cannot be matched"
@@ -34,7 +36,7 @@ class Part:
     paths : Body or IntrinsicPaths
     """
 
-    rows: IntArray
+    rows: IndexArray
     paths: Body | IntrinsicPaths
 
 
@@ -54,7 +56,7 @@ class RigidPaths:
 
     count: int
     parts: tuple[Part, ...]
-    moves: tuple[tuple[Bridge, IntArray], ...]
+    moves: tuple[tuple[Bridge, IndexArray], ...]
     placement: Placement
 
     def evaluate(self, t: FloatArray) -> FloatArray:
@@ -116,9 +118,10 @@ def _planned(assembly: Assembly, own: list[int]) -> Body | None:
     body = plan_body(a, b, local, outlines)
     if body is None or not body.crossings:
         return body
-    plain = IntrinsicPaths.of(assemble([(_pairs(a[r]), _pairs(b[r]), True) for r in local]))
-    pairs = plain.evaluate(TESTED)
-    return None if crossing_counts(pairs[..., 0] + 1j * pairs[..., 1], local).sum() < body.crossings else body
+    plain = IntrinsicPaths.of(assemble([(as_pairs(a[r]), as_pairs(b[r]), True) for r in local]))
+    points = plain.evaluate(TESTED)
+    frames = points[..., 0] + 1j * points[..., 1]
+    return None if len(crossing_edges(frames, local)) < body.crossings else body
 
 
 def _joined(assembly: Assembly, found: list[tuple[list[int], Body]]) -> RigidPaths:
@@ -168,9 +171,5 @@ def _numbers(interiors: list[list[int]], count: int) -> list[int]:
     return numbers
 
 
-def _indices(rows: Sequence[slice], own: list[int]) -> IntArray:
+def _indices(rows: Sequence[slice], own: list[int]) -> IndexArray:
     return np.concatenate([np.arange(rows[k].start, rows[k].stop) for k in own])
-
-
-def _pairs(p: ComplexArray) -> FloatArray:
-    return np.stack([p.real, p.imag], axis=1)

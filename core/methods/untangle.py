@@ -10,10 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import sparse
 
-from core.geometry.crossings import ComplexArray, IntArray
+from core.geometry.boxes import IndexArray
 from core.geometry.outline import FloatArray
 from core.methods.carry import Carried
 from core.methods.elements import Elements, Factor, Maps
+from core.methods.headings import ComplexArray
 
 FLAT = 1e-3
 """Growth of area below which a triangle counts as folded at the start."""
@@ -62,10 +63,10 @@ class _Patch:
     """
 
     elements: Elements
-    free: IntArray
-    cells: IntArray
-    slots: IntArray
-    pattern: tuple[IntArray, IntArray]
+    free: IndexArray
+    cells: IndexArray
+    slots: IndexArray
+    pattern: tuple[IndexArray, IndexArray]
     slopes: FloatArray
 
     @classmethod
