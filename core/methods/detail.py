@@ -67,6 +67,14 @@ class Detail:
         out.real[:, self.fold], out.imag[:, self.fold] = right
         return out
 
+    def pull_of(self, weights: FloatArray) -> FloatArray:
+        """How much each vertex of the cage moves the means with `weights` (k, n) of the vertices, (k, c)."""
+        rows = weights[:, self.fold]
+        for places, band in self.bands:
+            found, _ = lapack.dpbtrs(band, rows[:, places].T, lower=1)
+            rows[:, places] = found.T
+        return np.asarray(rows[:, self.held] * self.hold, np.float64)
+
 
 def attach(
     outlines: Sequence[Headings], rows: Sequence[slice], held: IndexArray, turns: FloatArray, loose: float

@@ -54,8 +54,12 @@ class Interior:
         Largest and least stretch of each triangle, for equal areas of both keyframes.
     exponent : (m,) float array
         Of the mean of 1 and the stretch that is wanted in between.
+    half_way : Elements
+        The triangles in the form in which they are joined.
+    parts : tuple of Maps
+        The four parts of the map that each triangle wants.
     pulls : sparse (n, 4 m) complex matrix
-        What each triangle pulls at its corners for the four parts of the map that it wants.
+        What each triangle pulls at its corners for these.
     factor : Factor
         Of the vertices but the first, which stays in the origin.
     """
@@ -63,18 +67,60 @@ class Interior:
     turn: FloatArray
     stretch: FloatArray
     exponent: FloatArray
+    half_way: Elements
+    parts: tuple[Maps, ...]
     pulls: Any
     factor: Factor
 
-    def vertices(self, u: FloatArray) -> ComplexArray:
-        """Vertices (n, T) at the times `u` (T,): up to a shift, those of the mesh at 0 and of its image at 1."""
-        high, low = (self._gain(s, np.clip(u, 0.0, 1.0)) for s in self.stretch)
-        spin = np.exp(1j * self.turn[:, None] * u)
-        alike, apart = spin * ((high + low) / 2), spin * ((high - low) / 2)
-        pull = self.pulls @ np.concatenate([alike * (1 - u), alike * u, apart * (1 - u), apart * u])
+    @property
+    def count(self) -> int:
+        """Vertices of the mesh."""
+        return self.half_way.count
+
+    def vertices(self, u: FloatArray, turned: FloatArray | float = 0.0) -> ComplexArray:
+        """Vertices (n, T) at the times `u` (T,): up to a shift, those of the mesh at 0 and of its image at 1.
+
+        Triangles are turned by `turned` (m, T) besides.
+        """
+        pull = self.pulls @ np.concatenate(self._shares(u, turned))
         out = np.zeros(pull.shape, np.complex128)
         out[1:] = self.factor.solve(pull[1:])
         return out
+
+    def wanted(self, u: FloatArray) -> Maps:
+        """Maps (m, T) that the triangles, half way, want at the times `u`."""
+        shares = self._shares(u, 0.0)
+        p, q = (
+            sum(share * getattr(part, name)[:, None] for share, part in zip(shares, self.parts, strict=True))
+            for name in ("p", "q")
+        )
+        return Maps(p, q)
+
+    def maps(self, vertices: ComplexArray) -> Maps:
+        """Maps (m, T) from the triangles half way to `vertices` (n, T)."""
+        corners = vertices[self.half_way.triangles]
+        slopes = self.half_way.slopes[:, :, None]
+        return Maps((slopes * corners).sum(axis=1), (slopes.conj() * corners).sum(axis=1))
+
+    def plate(self, loads: FloatArray) -> FloatArray:
+        """Deflections (n, k) of a free thin plate, half way, under loads (k, n) spread against their sum."""
+        corners = np.repeat(self.half_way.areas / 3, 3)
+        mass = np.bincount(self.half_way.triangles.ravel(), corners, self.count)
+        mass = mass / mass.sum()
+        loads = loads.T - mass[:, None] * loads.sum(axis=1)
+        for _ in range(2):
+            bent = np.zeros_like(loads)
+            bent[1:] = self.factor.solve_real(loads[1:])
+            bent -= mass @ bent
+            loads = mass[:, None] * bent
+        return bent
+
+    def _shares(self, u: FloatArray, turned: FloatArray | float) -> list[ComplexArray]:
+        """Weights (m, T) of the parts of the map that each triangle wants."""
+        high, low = (self._gain(s, np.clip(u, 0.0, 1.0)) for s in self.stretch)
+        spin = np.exp(1j * (self.turn[:, None] * u + turned))
+        alike, apart = spin * ((high + low) / 2), spin * ((high - low) / 2)
+        return [alike * (1 - u), alike * u, apart * (1 - u), apart * u]
 
     def _gain(self, stretch: FloatArray, u: FloatArray) -> FloatArray:
         """Stretch wanted over the linear one, (m, T)."""
@@ -105,12 +151,13 @@ def travel(carried: Carried, before: float, after: float) -> Interior:
     half_way = carried.elements.mapped(middle.after(scaled))
     back = middle.inverse()
     axes = Maps(np.zeros(len(turn), np.complex128), _axes(maps)).after(back)
-    pulls = [_pulls(half_way, wanted) for wanted in (back, grown.after(back), axes, grown.after(axes))]
+    parts = (back, grown.after(back), axes, grown.after(axes))
+    pulls = sparse.hstack([_pulls(half_way, part) for part in parts], format="csr")
     stretch = np.stack([np.abs(maps.p) + np.abs(maps.q), np.abs(maps.p) - np.abs(maps.q)])
     stretch = np.maximum(stretch, LEAST)
     exponent = 1 + (BULGE - 1) * bends(carried, turn, stretch)
     factor = Factor(half_way.stiffness[1:, 1:])
-    return Interior(turn, stretch, exponent, sparse.hstack(pulls, format="csr"), factor)
+    return Interior(turn, stretch, exponent, half_way, parts, pulls, factor)
 
 
 def bends(carried: Carried, turn: FloatArray, stretch: FloatArray) -> FloatArray:

@@ -12,7 +12,7 @@ from core.geometry.outline import FloatArray, as_points
 from core.methods.assembly import assemble
 from core.methods.intrinsic import IntrinsicPaths
 from core.methods.linear import LinearPaths
-from core.methods.rigid import RigidPaths, rigid_paths
+from core.methods.pins import Paths, Pin, PinnedPaths, hold
 
 METHODS: tuple[str, ...] = ("linear", "intrinsic", "rigid")
 """The names of the methods, from the simplest to the best."""
@@ -45,13 +45,14 @@ class DrawingPlan:
     Attributes
     ----------
     pairs : tuple of AlignedPair
-    paths : LinearPaths, IntrinsicPaths or RigidPaths
+    paths : Paths
+        What places the vertices.
     note : str
         What the method could not do as it should, in a sentence for the artist; empty when all is well.
     """
 
     pairs: tuple[AlignedPair, ...]
-    paths: LinearPaths | IntrinsicPaths | RigidPaths
+    paths: Paths
     note: str = ""
 
     def evaluate(self, t: npt.ArrayLike) -> tuple[FloatArray, ...]:
@@ -153,15 +154,26 @@ def inbetween(
 
 
 def plan(
-    a: npt.ArrayLike, b: npt.ArrayLike, *, method: str = "intrinsic", closed: bool = True, turns: int = 0
+    a: npt.ArrayLike,
+    b: npt.ArrayLike,
+    *,
+    method: str = "intrinsic",
+    closed: bool = True,
+    turns: int = 0,
+    pins: Sequence[Pin] = (),
 ) -> Plan:
-    """Return the paths from `a` to `b`, to be evaluated at any number of times; parameters as of `inbetween`."""
+    """Return the paths from `a` to `b`, to be evaluated at any number of times.
+
+    Parameters as of `inbetween` and `plan_drawing`.
+    """
     left = as_points(a, name="before", closed=closed)
     right = as_points(b, name="after", closed=closed)
-    return Plan(plan_drawing([AlignedPair(left, right, closed)], method=method, turns=turns))
+    return Plan(plan_drawing([AlignedPair(left, right, closed)], method=method, turns=turns, pins=pins))
 
 
-def plan_drawing(pairs: Sequence[AlignedPair], *, method: str = "intrinsic", turns: int = 0) -> DrawingPlan:
+def plan_drawing(
+    pairs: Sequence[AlignedPair], *, method: str = "intrinsic", turns: int = 0, pins: Sequence[Pin] = ()
+) -> DrawingPlan:
     """Return the paths of all outlines of a drawing, which move as one thing: a hole stays in its place.
 
     Parameters
@@ -170,6 +182,8 @@ def plan_drawing(pairs: Sequence[AlignedPair], *, method: str = "intrinsic", tur
         The outlines. Unlike in `plan`, a side may be a single point.
     method, turns
         As of `inbetween`.
+    pins : sequence of Pin
+        Points whose way is given, on whatever outline; every frame has them exactly there.
 
     Raises
     ------
@@ -188,13 +202,28 @@ def plan_drawing(pairs: Sequence[AlignedPair], *, method: str = "intrinsic", tur
             raise GeometryError(
                 f"{where}before has {len(pair.left)} vertices, after has {len(pair.right)}; match them first"
             )
-    if method == "linear" or not pairs:
-        return DrawingPlan(tuple(pairs), LinearPaths.of([(p.left, p.right) for p in pairs]))
-    outlines = [(p.left, p.right, p.closed) for p in pairs]
-    if method == "rigid":
-        paths, note = rigid_paths(outlines, turns=turns)
-        return DrawingPlan(tuple(pairs), paths, note)
-    return DrawingPlan(tuple(pairs), IntrinsicPaths.of(assemble(outlines, turns=turns)))
+    paths, note = _paths([(p.left, p.right, p.closed) for p in pairs], method, turns, pins)
+    return DrawingPlan(tuple(pairs), paths, note)
+
+
+def _paths(
+    outlines: Sequence[tuple[FloatArray, FloatArray, bool]], method: str, turns: int, pins: Sequence[Pin]
+) -> tuple[Paths, str]:
+    """Return the paths of all vertices, led through the pins, and what the method could not do as it should."""
+    bending, note = None, ""
+    held = hold(pins, outlines) if pins else None
+    paths: Paths
+    if method == "linear" or not outlines:
+        paths = LinearPaths.of([(left, right) for left, right, _ in outlines])
+    elif method == "intrinsic":
+        paths = IntrinsicPaths.of(assemble(outlines, turns=turns))
+    else:
+        from core.methods import rigid  # sparse solvers take a while to import
+
+        paths, note = rigid.rigid_paths(outlines, turns=turns)
+        if held is not None and isinstance(paths, rigid.RigidPaths):
+            bending = rigid.RigidBending.of(paths, held.weights)
+    return (paths if held is None else PinnedPaths(paths, held, bending)), note
 
 
 def as_times(t: npt.ArrayLike) -> FloatArray:

@@ -11,6 +11,7 @@ import numpy as np
 from core.geometry.boxes import IndexArray
 from core.geometry.outline import FloatArray
 from core.methods.assembly import Assembly, assemble, in_a_row
+from core.methods.bending import BentBody, bend
 from core.methods.bodies import bodies
 from core.methods.body import TESTED, Body, plan_body
 from core.methods.bridges import Bridge
@@ -41,6 +42,42 @@ class Part:
 
 
 @dataclass(frozen=True, eq=False)
+class RigidBending:
+    """How the interiors of a drawing give way to its pins.
+
+    Attributes
+    ----------
+    paths : RigidPaths
+    bent : tuple of (number of the part, numbers of its pins, BentBody)
+    """
+
+    paths: "RigidPaths"
+    bent: tuple[tuple[int, IndexArray, BentBody], ...]
+
+    @classmethod
+    def of(cls, paths: "RigidPaths", weights: FloatArray) -> "RigidBending":
+        """Prepare for pins that are means of the vertices of the drawing with `weights` (k, n)."""
+        bent = []
+        for number, part in enumerate(paths.parts):
+            own = np.flatnonzero(np.isclose(weights[:, part.rows].sum(axis=1), 1.0))
+            if len(own) and isinstance(part.paths, Body):
+                bent.append((number, own, bend(part.paths, weights[np.ix_(own, part.rows)])))
+        return cls(paths, tuple(bent))
+
+    def near(self, t: FloatArray, frames: ComplexArray, wanted: ComplexArray) -> ComplexArray:
+        """Return `frames` (T, n) with the interiors joined again, their pins where they are `wanted` (T, k)."""
+        frames = frames.copy()
+        done = set()
+        for number, own, body in self.bent:
+            frames[:, self.paths.parts[number].rows] = body.forms(t, wanted[:, own])
+            done.add(number)
+        for number, bridge, rows in self.paths.moves:
+            if number not in done:
+                frames[:, rows] += bridge.shift(frames, t)[:, None]
+        return frames
+
+
+@dataclass(frozen=True, eq=False)
 class RigidPaths:
     """The paths of all vertices of a drawing.
 
@@ -49,14 +86,14 @@ class RigidPaths:
     count : int
         Vertices.
     parts : tuple of Part
-    moves : tuple of (Bridge, (k,) int array)
-        The bridges between parts, in the order in which parts must be moved, and the vertices that each moves.
+    moves : tuple of (int, Bridge, (k,) int array)
+        Part, bridge to it and its vertices, in the order in which parts must be moved.
     placement : Placement
     """
 
     count: int
     parts: tuple[Part, ...]
-    moves: tuple[tuple[Bridge, IndexArray], ...]
+    moves: tuple[tuple[int, Bridge, IndexArray], ...]
     placement: Placement
 
     def evaluate(self, t: FloatArray) -> FloatArray:
@@ -70,7 +107,7 @@ class RigidPaths:
     def _fill(self, frames: ComplexArray, t: FloatArray) -> None:
         for part in self.parts:
             frames[:, part.rows] = part.paths.forms(t)
-        for bridge, rows in self.moves:
+        for _, bridge, rows in self.moves:
             frames[:, rows] += bridge.shift(frames, t)[:, None]
         frames += (self.placement.path(t) - frames @ self.placement.weights)[:, None]
 
@@ -136,7 +173,7 @@ def _joined(assembly: Assembly, found: list[tuple[list[int], Body]]) -> RigidPat
         parts.append(Part(_indices(assembly.rows, [k]), IntrinsicPaths.of(_alone(assembly, k))))
     of_row = {row.start: int(part) for row, part in zip(assembly.rows, part_of, strict=True)}
     moves = [
-        (bridge, parts[of_row[bridge.carried.start]].rows)
+        (of_row[bridge.carried.start], bridge, parts[of_row[bridge.carried.start]].rows)
         for bridge in assembly.bridges
         if of_row[bridge.carried.start] != of_row[bridge.carrier.start]
     ]
