@@ -14,6 +14,7 @@ from core.errors import (
     StorageError,
 )
 from core.io.project import load, save
+from core.methods.pins import Inside, OnOutline, Pin
 from core.methods.plan import METHODS, plan
 from core.model.document import Document
 from core.repair.between import inbetween
@@ -30,7 +31,10 @@ __all__ = [
     "FileFormatError",
     "GeometryError",
     "InkbetweenError",
+    "Inside",
+    "OnOutline",
     "OutlinePairs",
+    "Pin",
     "Problem",
     "StorageError",
     "alternatives",

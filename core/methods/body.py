@@ -67,6 +67,10 @@ class Body:
     detail : Detail
     backwards : bool
         Whether the mesh was made in the keyframe after.
+    boundary : Cage
+        The boundary of the mesh.
+    spin : complex
+        By which the mesh must be turned to lie as the drawing does.
     crossings : int
         Found at the times tested.
     note : str
@@ -76,7 +80,7 @@ class Body:
     interior: Interior
     detail: Detail
     backwards: bool
-    places: np.ndarray
+    boundary: Cage
     spin: complex
     crossings: int = 0
     note: str = ""
@@ -84,7 +88,7 @@ class Body:
     def forms(self, t: FloatArray) -> ComplexArray:
         """Vertices (T, n) at the times `t` (T,)."""
         u = 1 - t if self.backwards else t
-        cage = self.interior.vertices(u)[self.places] * self.spin
+        cage = self.interior.vertices(u)[self.boundary.places] * self.spin
         return self.detail.vertices(u, cage)
 
 
@@ -177,14 +181,14 @@ def _fitted(
     best: Body | None = None
     for loose in LOOSENESS:
         detail = attach(outlines, rows, boundary.vertices, turns, loose * size)
-        body = Body(interior, detail, backwards, boundary.places, spin)
+        body = Body(interior, detail, backwards, boundary, spin)
         frames = body.forms(TESTED)
         if not np.isfinite(frames).all():
             return None
         crossings = len(crossing_edges(frames, rows))
         said = "; ".join(n for n in (note, LOOSE if loose > LOOSENESS[0] else "") if n)
         if best is None or crossings < best.crossings:
-            best = Body(interior, detail, backwards, boundary.places, spin, crossings, said)
+            best = Body(interior, detail, backwards, boundary, spin, crossings, said)
         if not crossings:
             break
     return best

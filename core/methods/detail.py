@@ -37,6 +37,8 @@ class Detail:
         The vertex at each place.
     bands : tuple of (slice, (3, m) float array)
         Places of every outline and the Cholesky factor of its matrix.
+    along : (n,) float array
+        Where the middle of every edge is along the cage: number of the cage's edge plus share of its length.
     """
 
     half_headings: FloatArray
@@ -46,11 +48,18 @@ class Detail:
     hold: FloatArray
     fold: IndexArray
     bands: tuple[tuple[slice, FloatArray], ...]
+    along: FloatArray
 
-    def vertices(self, u: FloatArray, cage: ComplexArray) -> ComplexArray:
-        """Vertices (T, n) at the times `u` (T,), whose cage is at `cage` (k, T)."""
+    def vertices(self, u: FloatArray, cage: ComplexArray, turned: FloatArray | None = None) -> ComplexArray:
+        """Vertices (T, n) at the times `u` (T,), whose cage is at `cage` (k, T).
+
+        The edges are turned by `turned` (n, T) radians besides.
+        """
         shares = np.stack([1 - u, u], axis=1)
-        tangent = np.tan(shares @ self.half_headings)  # of the half: cheaper than a sine and a cosine
+        half = shares @ self.half_headings
+        if turned is not None:
+            half += turned[self.fold].T / 2
+        tangent = np.tan(half)  # of the half: cheaper than a sine and a cosine
         lengths = shares @ self.lengths
         part = 2 * lengths / (1 + tangent * tangent)
         edges = np.stack([part - lengths, part * tangent])
@@ -119,6 +128,7 @@ def attach(
         hold,
         fold,
         tuple((r, _band(stiff[r], diagonal[r])) for r in rows),
+        _along(mean, rows, held),
     )
 
 
@@ -151,6 +161,21 @@ def _shares(mean: FloatArray, rows: Sequence[slice], held: IndexArray) -> FloatA
     segment = _segments(len(mean), rows, held)
     whole = np.bincount(segment, mean, len(held))
     return np.asarray((whole + whole[_held_before(rows, held)]) / 2)
+
+
+def _along(mean: FloatArray, rows: Sequence[slice], held: IndexArray) -> FloatArray:
+    """Middle of each edge along the cage: number of the cage's edge plus share of its length, (n,)."""
+    segment = _segments(len(mean), rows, held)
+    whole = np.maximum(np.bincount(segment, mean, len(held)), np.finfo(np.float64).tiny)
+    total = np.zeros(len(mean))
+    for row in rows:
+        total[row] = np.cumsum(mean[row]) - mean[row] / 2
+    start = total[held] - mean[held] / 2
+    around = np.zeros(len(mean))
+    for row in rows:
+        around[row] = mean[row].sum()
+    share = np.mod(total - start[segment], np.maximum(around, np.finfo(np.float64).tiny)) / whole[segment]
+    return np.asarray(segment + np.clip(share, 0.0, 1 - 1e-9), np.float64)
 
 
 def _nearest_turns(

@@ -146,6 +146,8 @@ def hold(pins: Sequence[Pin], outlines: Sequence[tuple[FloatArray, FloatArray, b
     GeometryError
         If a pin is on an outline that is not there, or a number is not finite.
     """
+    if not outlines:
+        raise GeometryError("a drawing without outlines has no place for a pin")
     a, b = (np.concatenate([pair[side] for pair in outlines]) @ np.array([1, 1j]) for side in (0, 1))
     weights = np.stack([_weights(k, pin, outlines, a) for k, pin in enumerate(pins)])
     first, last = weights @ a, weights @ b
@@ -154,7 +156,7 @@ def hold(pins: Sequence[Pin], outlines: Sequence[tuple[FloatArray, FloatArray, b
         third = (last[k] - first[k]) / 3
         handles = [first[k] + third, last[k] - third]
         if pin.handles is not None:
-            handles = [complex(*h) for h in pin.handles]
+            handles = [complex(x, y) for x, y in pin.handles]
         ways.append([first[k], *handles, last[k]])
     corners = np.array(ways, np.complex128)
     if not np.isfinite(corners).all():
