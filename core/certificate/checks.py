@@ -19,6 +19,9 @@ FOLDED = np.deg2rad(170.0)
 NEW_FOLD = np.deg2rad(30.0)
 """By so much it must exceed the wider of both keyframes'."""
 
+NO_AREA = 1e-6
+"""Share of the smaller keyframe's area below which an area has no sign of its own."""
+
 AREA_TOLERANCE = 0.05
 """Share by which an area may leave the range of both keyframes'."""
 
@@ -116,7 +119,8 @@ def _length_text(kind: str, edge: int, share: float) -> str:
 def _wrong_area(view: View, log: Log) -> None:
     area, ends = view.area, np.asarray(signed_area(view.ends), np.float64)
     low, high = np.sort(np.abs(ends))
-    inverted = np.flatnonzero((area * ends[0] < 0) & (area * ends[1] < 0) & view.finite)
+    away = np.where(np.abs(area) > NO_AREA * low, np.sign(area), 0.0)
+    inverted = np.flatnonzero((away * ends[0] < 0) & (away * ends[1] < 0) & view.finite)
     log.count("inside out", inverted)
     for k in inverted.tolist():
         text = f"{view.name}the outline is turned inside out"

@@ -1,7 +1,7 @@
 """A plan whose in-betweens never cross themselves, where the keyframes do not."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -12,8 +12,10 @@ from core.methods.plan import AlignedPair, DrawingPlan, Plan, as_times, plan_dra
 from core.repair.barrier import Barrier
 from core.repair.chains import Chains, ComplexArray, as_points
 from core.repair.descent import Field
+from core.repair.doubled import spread
 from core.repair.join import Sketch
-from core.repair.route import Route, route
+from core.repair.route import Course, route
+from core.repair.survey import TICKS
 
 Progress = Callable[[float], None]
 
@@ -26,24 +28,23 @@ class RepairedDrawingPlan:
     ----------
     drawing : DrawingPlan
         The paths before the repair.
-    route : Route or None
-        Where to go instead, None where nothing is changed.
+    parts : tuple of int
+        The outlines that are repaired: all but those that are a point in one keyframe.
+    course : Course or None
+        Where these go instead, None where nothing is changed.
     notes : tuple of str
         What could not be repaired and why; empty when every in-between is simple.
-    origin, scale
-        From sizes of the drawing, in which the route is told, to px.
     """
 
     drawing: DrawingPlan
-    route: Route | None
+    parts: tuple[int, ...] = ()
+    course: Course | None = None
     notes: tuple[str, ...] = ()
-    origin: complex = 0j
-    scale: float = 1.0
 
     @property
     def changed(self) -> bool:
         """Whether any in-between is not the method's own."""
-        return self.route is not None
+        return self.course is not None
 
     @property
     def pairs(self) -> tuple[AlignedPair, ...]:
@@ -57,12 +58,12 @@ class RepairedDrawingPlan:
         """
         times = np.atleast_1d(as_times(t))
         outlines = self.drawing.evaluate(times)
-        if self.route is None:
+        if self.course is None:
             return outlines
-        rows, places = self.route.at(times)
-        points = as_points(places * self.scale + self.origin)
+        rows, places = self.course.at(times)
+        points = as_points(places)
         first = 0
-        for outline in outlines:
+        for outline in (outlines[k] for k in self.parts):
             outline[rows] = points[:, first : first + outline.shape[1]]
             first += outline.shape[1]
         return outlines
@@ -134,35 +135,60 @@ def repair_drawing(
     """
     watch = _Watch(progress, cancelled)
     watch.tell(0.0)
-    if not plan.pairs:
-        return RepairedDrawingPlan(plan, None)
-    chains = Chains.of([len(p.left) for p in plan.pairs], [p.closed for p in plan.pairs])
-    corners = np.concatenate([q for p in plan.pairs for q in (p.left, p.right)])
+    parts = tuple(k for k, pair in enumerate(plan.pairs) if not _is_point(pair.left) and not _is_point(pair.right))
+    course, notes = _course(plan, parts, watch) if parts else (None, ())
+    repaired = RepairedDrawingPlan(plan, parts, course, notes)
+    watch.tell(1.0)
+    if notes or len(parts) == len(plan.pairs):
+        return repaired
+    return replace(repaired, notes=_growth_notes(repaired))
+
+
+def _course(plan: DrawingPlan, parts: tuple[int, ...], watch: "_Watch") -> tuple[Course | None, tuple[str, ...]]:
+    """Where some outlines of a drawing go, None if where they went before, and why that is so if not by luck."""
+    pairs = [plan.pairs[k] for k in parts]
+    chains = Chains.of([len(p.left) for p in pairs], [p.closed for p in pairs])
+    corners = np.concatenate([q for p in pairs for q in (p.left, p.right)])
     low, high = corners.min(axis=0), corners.max(axis=0)
     origin, scale = complex(*((low + high) / 2)), float((high - low).max())
-    ends = np.stack([_row([p.left for p in plan.pairs]), _row([p.right for p in plan.pairs])])
-    refusal = _refusal(chains, (ends - origin) / scale)
+    ends = (np.stack([_row([p.left for p in pairs]), _row([p.right for p in pairs])]) - origin) / scale
+    moves = np.stack([spread(chains, z) for z in ends])
+    refusal = _refusal(chains, ends + moves)
     if refusal:
-        watch.tell(1.0)
-        return RepairedDrawingPlan(plan, None, (refusal,))
+        return None, (refusal,)
 
     def path(t: FloatArray) -> ComplexArray:
-        return (_row(plan.evaluate(t)) - origin) / scale
+        frames = plan.evaluate(t)
+        apart = (1 - t)[:, None] * moves[0] + t[:, None] * moves[1]
+        return np.asarray((_row([frames[k] for k in parts]) - origin) / scale + apart, np.complex128)
 
-    ends = (ends - origin) / scale
-    mass, springs = chains.stiffness(ends[0], ends[1])
-    field = Field(chains, Barrier(ends[0], ends[1]), mass, springs, watch.check)
-    found = route(field, path, (_sketch(plan, "intrinsic", 16), _sketch(plan, "linear", 10)), watch.tell)
-    watch.tell(1.0)
-    notes = (
-        ()
-        if found.whole
-        else ("no way without a crossing was found; the in-betweens are as the method made them",)
+    before, after = ends + moves
+    mass, springs = chains.stiffness(before, after)
+    field = Field(chains, Barrier(before, after), mass, springs, watch.check)
+    sketches = tuple(_sketch(pairs, method, steps) for method, steps in (("intrinsic", 16), ("linear", 10)))
+    found = route(field, path, sketches, watch.tell)
+    if not found.whole:
+        return None, ("no way without a crossing was found; the in-betweens are as the method made them",)
+    if not found.bent and not moves.any():
+        return None, ()
+    return Course(found, path, ends, bool(moves.any()), origin, scale), ()
+
+
+def _is_point(points: FloatArray) -> bool:
+    return not np.ptp(points, axis=0).any()
+
+
+def _growth_notes(repaired: RepairedDrawingPlan) -> tuple[str, ...]:
+    """Whether an outline that grows out of a point crosses something meanwhile; it is never bent."""
+    chains = Chains.of([len(p.left) for p in repaired.pairs], [p.closed for p in repaired.pairs])
+    if chains.simple(_row(repaired.evaluate(np.arange(1, TICKS) / TICKS))).all():
+        return ()
+    return (
+        "an outline that grows out of a point or shrinks to one crosses itself or another; it is not repaired",
     )
-    return RepairedDrawingPlan(plan, found if found.whole and found.bent else None, notes, origin, scale)
 
 
-def _row(outlines: tuple[FloatArray, ...] | list[FloatArray]) -> ComplexArray:
+def _row(outlines: Sequence[FloatArray]) -> ComplexArray:
     """All outlines (..., k_i, 2) in one row of complex numbers (..., n)."""
     points = np.concatenate(outlines, axis=-2)
     return np.asarray(points[..., 0] + 1j * points[..., 1], np.complex128)
@@ -180,9 +206,9 @@ def _refusal(chains: Chains, ends: ComplexArray) -> str:
     return ""
 
 
-def _sketch(plan: DrawingPlan, method: str, steps: int) -> Sketch:
-    """In-betweens of two frames of this drawing by another method, as wishes for a march."""
-    chains = Chains.of([len(p.left) for p in plan.pairs], [p.closed for p in plan.pairs])
+def _sketch(outlines: list[AlignedPair], method: str, steps: int) -> Sketch:
+    """In-betweens of two frames of these outlines by another method, as wishes for a march."""
+    chains = Chains.of([len(p.left) for p in outlines], [p.closed for p in outlines])
     times = np.linspace(0.0, 1.0, steps + 1)
 
     def sketch(x: ComplexArray, y: ComplexArray) -> ComplexArray:

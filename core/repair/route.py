@@ -13,7 +13,10 @@ from core.repair.descent import Field
 from core.repair.join import Sketch, join
 from core.repair.march import March, best_change, march
 from core.repair.survey import TICKS, Path, Terrain, runs, survey, terrain
-from core.repair.timing import FILLED, durations, move_lengths, speed_limit
+from core.repair.timing import FILLED, MOST_JUMP, durations, jumps, move_lengths, speed_limit
+
+OPENING = 1 / 4096
+"""Time in which doubled vertices part."""
 
 MARGIN = 2
 """Ticks by which a run of bad moves is widened at most to reach frames that feel no barrier."""
@@ -62,13 +65,60 @@ class Route:
         return len(self.detours) > 0
 
     def at(self, times: FloatArray) -> tuple[IndexArray, ComplexArray]:
-        """Return which of the times (T,) lie strictly within a detour, and the places there."""
-        rows, places = [np.zeros(0, np.intp)], [np.zeros((0, self.detours[0].places.shape[1]), np.complex128)]
+        """Return which of the times (T,) lie strictly within a detour, and the places there, none or (k, n)."""
+        if not self.detours:
+            return np.zeros(0, np.intp), np.zeros((0, 0), np.complex128)
+        rows, places = [], []
         for detour in self.detours:
             inside = np.flatnonzero((times > detour.times[0]) & (times < detour.times[-1]))
             rows.append(inside)
             places.append(detour.at(times[inside]))
         return np.concatenate(rows), np.concatenate(places)
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """A route in px, for keyframes of which vertices may have been doubled.
+
+    Attributes
+    ----------
+    route : Route
+        In sizes of the drawing.
+    path : callable
+        The path from which the route takes its detours, in sizes, doubled vertices told apart.
+    ends : (2, n) complex array
+        The keyframes themselves, in sizes.
+    doubled : bool
+        Whether any vertex was told apart. The outlines then leave the keyframes by a straight move of `OPENING`.
+    origin, scale
+        To px.
+    """
+
+    route: Route
+    path: Path
+    ends: ComplexArray
+    doubled: bool
+    origin: complex
+    scale: float
+
+    def at(self, times: FloatArray) -> tuple[IndexArray, ComplexArray]:
+        """Return which of the times (T,) are not the method's own, and the places there in px."""
+        rows, places = self._opened(times) if self.doubled else self.route.at(times)
+        return rows, places * self.scale + self.origin
+
+    def _opened(self, times: FloatArray) -> tuple[IndexArray, ComplexArray]:
+        inside = np.flatnonzero((times > 0) & (times < 1))
+        t = times[inside]
+        held = np.clip(t, OPENING, 1 - OPENING)
+        places = self.path(held)
+        rows, bent = self.route.at(held)
+        if len(rows):
+            places[rows] = bent
+        for end, share in ((self.ends[0], t / OPENING), (self.ends[1], (1 - t) / OPENING)):
+            near = share < 1
+            s = share[near, None]
+            places[near] = (1 - s) * end + s * places[near]
+        return inside, places
 
 
 @dataclass(frozen=True, eq=False)
@@ -222,11 +272,31 @@ def _timed_legs(walked: March, last: int) -> tuple[list[ComplexArray], list[floa
 def _timed(repairs: Sequence[_Repair], frames: ComplexArray) -> list[Detour]:
     """Give every repair its time: as much of its neighbourhood as it needs, up to the repair next to it."""
     limit = speed_limit(frames)
-    found: list[Detour] = []
-    low = 0
+    found: list[_Repair] = []
     for k, repair in enumerate(repairs):
+        low = found[-1].last if found else 0
         high = repairs[k + 1].first if k + 1 < len(repairs) else TICKS
-        wide = repair.widened(frames, low, high, limit)
-        found.append(wide.detour(limit))
-        low = wide.last
-    return found
+        found.append(repair.widened(frames, low, high, limit))
+    detours = [repair.detour(limit) for repair in found]
+    if jumps(lambda t: _mixed(detours, frames, t)) <= MOST_JUMP:
+        return detours
+    return [_evenly(found, frames)]
+
+
+def _mixed(detours: list[Detour], frames: ComplexArray, times: FloatArray) -> ComplexArray:
+    """Places at the times (T,), the frames between the detours taken as straight moves."""
+    places = Detour(np.arange(TICKS + 1) / TICKS, frames).at(times)
+    rows, bent = Route(tuple(detours)).at(times)
+    places[rows] = bent
+    return places
+
+
+def _evenly(repairs: list[_Repair], frames: ComplexArray) -> Detour:
+    """All of the way at one speed: detours so long that nothing but that keeps a vertex from jumping."""
+    places, at = [], 0
+    for repair in repairs:
+        places += [*frames[at : repair.first], *repair.places]
+        at = repair.last + 1
+    whole = np.array([*places, *frames[at:]])
+    times = np.cumsum(np.append(0.0, durations(np.zeros(len(whole) - 1), move_lengths(whole), 1.0, 0.0)))
+    return Detour(np.append(times[:-1], 1.0), whole)

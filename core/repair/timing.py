@@ -1,5 +1,7 @@
 """When to be where: a detour takes time, and no vertex shall jump."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from core.geometry.outline import FloatArray
@@ -8,6 +10,9 @@ from core.repair.chains import ComplexArray
 FASTEST = 2.4
 """Speed limit of a repaired part, in median speeds of the path."""
 
+MOST_JUMP = 2.9
+"""Median steps that the largest step between neighbouring frames may be, frames being a 240th apart."""
+
 FILLED = 0.9
 """Share of a part's time that moves at the limit may fill before the part is widened."""
 
@@ -15,6 +20,13 @@ FILLED = 0.9
 def move_lengths(places: ComplexArray) -> FloatArray:
     """How far the vertex that goes farthest goes in every move between places (K, n), (K - 1,)."""
     return np.asarray(np.abs(np.diff(places, axis=0)).max(axis=1), np.float64)
+
+
+def jumps(path: Callable[[FloatArray], ComplexArray]) -> float:
+    """Return the largest step between neighbouring ones of 241 frames, in median steps."""
+    steps = move_lengths(path(np.linspace(0.0, 1.0, 241)))
+    middle = float(np.median(steps))
+    return float(steps.max()) / middle if middle > 0 else np.inf
 
 
 def speed_limit(frames: ComplexArray) -> float:
