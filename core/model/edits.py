@@ -246,6 +246,7 @@ def set_span(
     method: str | None = None,
     easing: Easing | None = None,
     turns: int | None = None,
+    repair: bool | None = None,
 ) -> Document:
     """Change how the span that begins at `frame` moves."""
     layer = document.layer(layer_id)
@@ -256,6 +257,7 @@ def set_span(
         method=span.method if method is None else method,
         easing=span.easing if easing is None else easing,
         turns=span.turns if turns is None else turns,
+        repair=span.repair if repair is None else repair,
     )
     return document if changed == span else with_keyframe(document, layer, replace(keyframe, span=changed))
 
