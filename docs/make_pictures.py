@@ -17,7 +17,7 @@ FOLDER = Path(__file__).resolve().parent / "pictures"
 THEMES = {"light": "", "dark": "-dark"}
 """What each theme's file names end with; the light ones are what a page without dark pages shows."""
 
-WINDOW = (1280, 800)
+WINDOW = (1280, 860)
 FIGURE = (1280, 400)
 FONTS = """<?xml version="1.0"?>
 <!DOCTYPE fontconfig SYSTEM "fonts.dtd">
