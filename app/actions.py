@@ -129,6 +129,8 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ),
     ActionSpec("span.linear", "Span", "Linear", (), "", checkable=True, group="method"),
     ActionSpec("span.intrinsic", "Span", "Intrinsic", (), "", checkable=True, group="method"),
+    ActionSpec("span.rigid", "Span", "Rigid", (), "", checkable=True, group="method"),
+    ActionSpec("span.auto", "Span", "Auto", (), "", checkable=True, group="method"),
     _line("Span"),
     ActionSpec("span.clear", "Span", "Clear Anchors"),
     ActionSpec(

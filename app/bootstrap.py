@@ -29,7 +29,12 @@ from core.model.inbetweens import PlanCache
 ARRANGEMENT_ACTIONS = {"overlaid": "view.overlaid", "side by side": "view.side", "compare": "view.compare"}
 THEME_ACTIONS = {"system": "view.theme_system", "light": "view.theme_light", "dark": "view.theme_dark"}
 SPAN_ACTIONS = ("span.clear", "span.again", "span.flip", "span.shift_on", "span.shift_back", "view.compare")
-METHOD_ACTIONS = {"linear": "span.linear", "intrinsic": "span.intrinsic"}
+METHOD_ACTIONS = {
+    "linear": "span.linear",
+    "intrinsic": "span.intrinsic",
+    "rigid": "span.rigid",
+    "auto": "span.auto",
+}
 
 
 class Editor(QObject):

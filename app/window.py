@@ -67,7 +67,7 @@ class Window(QMainWindow):
         }
         self.timeline = Timeline(session, view, playback, theme, self.table.actions)
         self.alternatives_panel = AlternativesPanel(session, preview, ranked, theme)
-        self.span_panel = SpanPanel(session, view, self.table.actions, self.alternatives_panel)
+        self.span_panel = SpanPanel(session, view, self.table.actions, preview, self.alternatives_panel)
         self.easing_panel = EasingPanel(session, theme)
         self.drawing_panel = DrawingPanel(session, theme, *self._tolerance())
         self.setCentralWidget(self._central())

@@ -76,7 +76,8 @@ class AlternativesPanel(QWidget):
         if not self.session.in_gesture:
             self.ranked.ask(before, after)
         ranking = self.ranked.ranking
-        method = before.span.method if before is not None else ""
+        # thumbnails must be there at once: the slow methods' middles look like intrinsic's at this size
+        method = "linear" if before is not None and before.span.method == "linear" else "intrinsic"
         if ranking is not self._shown or method != self._shown_method:
             self._show_pictures(ranking, method)
         pair = self._pair(ranking) if ranking else None

@@ -166,6 +166,8 @@ class SpanPreview(QObject):
         found = self._plans.get(wanted.key)
         if found is None and self._is_quick(wanted):
             found = self._keep_plan(wanted.solve())
+        if method is None and found is not None:
+            self._slow.pop(before.frame, None)
         if found is None:
             self._slow[wanted.before.frame] = wanted
             self._pause.start()
