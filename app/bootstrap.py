@@ -4,7 +4,7 @@ import signal
 import sys
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QObject, Qt, QTimer
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QIcon
 from PySide6.QtWidgets import QApplication, QMenu
 
@@ -86,9 +86,7 @@ class Editor(QObject):
             "file.export": self.export_frames,
             "file.close": files.new,
             "file.quit": self.window.close,
-            "help.keys": lambda: show_keys(
-                self.window, self.window.tools.values(), self.window.table.actions.values()
-            ),
+            "help.keys": lambda: show_keys(window, window.tools.values()),
             "help.about": lambda: show_about(window),
         }
 
@@ -299,6 +297,11 @@ class Editor(QObject):
         geometry = self.settings.blob("window/geometry")
         if geometry is not None:
             self.window.restoreGeometry(geometry)
+            return
+        screen = QGuiApplication.primaryScreen()
+        if screen is not None:  # a small laptop's screen is smaller than what we would like
+            room = screen.availableGeometry().size()
+            self.window.resize(self.window.size().boundedTo(room - QSize(40, 80)))
 
     def _on_close_asked(self, event: QCloseEvent) -> None:
         if not self.files.may_leave():
@@ -345,10 +348,10 @@ def run(path: str | None = None, *, sample: bool = False) -> int:
     app = make_application()
     editor = Editor()
     if path is not None:
-        opened = editor.files.open_sample(Path(path)) if sample else editor.files.open_path(Path(path))
-        if sample and opened:
-            first, second = editor.session.layer.frames()[:2]
-            editor.session.go_to((first + second) // 2)  # where the in-between is farthest from both
+        if sample:
+            editor.files.open_sample(Path(path))
+        else:
+            editor.files.open_path(Path(path))
     editor.window.show()
     signal.signal(signal.SIGINT, lambda *_: editor.window.close())
     beat = QTimer()  # Python sees Ctrl+C only when it runs now and then

@@ -35,7 +35,7 @@ from app.tools.pencil import PencilTool
 from app.tools.select import SelectTool
 from app.view import ViewState
 
-SIDE_WIDTH = 300
+SIDE_WIDTH = 312
 TOOLBOX_WIDTH = 52
 
 
@@ -76,7 +76,7 @@ class Window(QMainWindow):
         self._make_menus()
         self.setAcceptDrops(True)
         self.resize(1440, 900)
-        self.setMinimumSize(900, 560)
+        self.setMinimumSize(1000, 560)
 
     # laying out
 
@@ -126,6 +126,7 @@ class Window(QMainWindow):
         outer = QStackedLayout(side)
         outer.setContentsMargins(1, 0, 0, 0)
         inner = QWidget()
+        inner.setFixedWidth(SIDE_WIDTH - 12)  # room for the scroll bar, so that it never covers anything
         column = QVBoxLayout(inner)
         column.setContentsMargins(0, 4, 0, 12)
         column.setSpacing(4)

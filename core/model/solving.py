@@ -7,9 +7,9 @@ import numpy as np
 
 from core.certificate import SEVERITIES, certify_drawing
 from core.methods.plan import AlignedPair, DrawingPlan, plan_drawing
+from core.model.document import AUTO
 from core.repair.plan import RepairedDrawingPlan, repair_drawing
 
-AUTO = "auto"
 CANDIDATES = ("rigid", "intrinsic")
 """What auto chooses from; the first one wins a tie."""
 
