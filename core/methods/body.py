@@ -22,8 +22,8 @@ LOOSE = "fine detail leaves the interior so as not to cross itself"
 LOOSENESS = (0.1, 0.3, 1.0, 3.0, 10.0)
 """How far along the outline detail may leave the cage, in sizes: the first with no crossings is taken."""
 
-TESTED = np.arange(1, 10) / 10
-"""Times at which in-betweens are tested for crossings."""
+MANY = 800
+"""Vertices from which on in-betweens are tested for crossings at 7 times and not at 15."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,7 +182,7 @@ def _fitted(
     for loose in LOOSENESS:
         detail = attach(outlines, rows, boundary.vertices, turns, loose * size)
         body = Body(interior, detail, backwards, boundary, spin)
-        frames = body.forms(TESTED)
+        frames = body.forms(tested(rows[-1].stop))
         if not np.isfinite(frames).all():
             return None
         crossings = len(crossing_edges(frames, rows))
@@ -198,6 +198,11 @@ def _area(p: ComplexArray, rows: Sequence[slice]) -> float:
     """Area of the first outline less that of its holes."""
     outer, *holes = (abs(signed_area(p[r])) for r in rows)
     return max(outer - sum(holes), 0.0)
+
+
+def tested(count: int) -> FloatArray:
+    """Times at which in-betweens of so many vertices are tested for crossings."""
+    return np.linspace(0, 1, 9 if count >= MANY else 17)[1:-1]
 
 
 def _reversed(h: Headings) -> Headings:

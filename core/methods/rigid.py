@@ -13,7 +13,7 @@ from core.geometry.outline import FloatArray
 from core.methods.assembly import Assembly, assemble, in_a_row
 from core.methods.bending import BentBody, bend
 from core.methods.bodies import bodies
-from core.methods.body import TESTED, Body, plan_body
+from core.methods.body import Body, plan_body, tested
 from core.methods.bridges import Bridge
 from core.methods.headings import ComplexArray
 from core.methods.intrinsic import IntrinsicPaths
@@ -156,7 +156,7 @@ def _planned(assembly: Assembly, own: list[int]) -> Body | None:
     if body is None or not body.crossings:
         return body
     plain = IntrinsicPaths.of(assemble([(as_pairs(a[r]), as_pairs(b[r]), True) for r in local]))
-    points = plain.evaluate(TESTED)
+    points = plain.evaluate(tested(len(a)))
     frames = points[..., 0] + 1j * points[..., 1]
     return None if len(crossing_edges(frames, local)) < body.crossings else body
 
