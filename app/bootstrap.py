@@ -9,25 +9,32 @@ from PySide6.QtGui import QCloseEvent, QGuiApplication, QIcon
 from PySide6.QtWidgets import QApplication, QMenu
 
 import resources
-from app import editing
+from app import editing, matching
 from app.dialogs.export import ExportDialog
 from app.dialogs.help import show_about, show_keys
 from app.dialogs.stage import StageDialog
 from app.editing import Clipboard
 from app.files import Files
 from app.playback import Playback
+from app.preview.alternatives import AlternativesPreview
 from app.preview.spans import SpanPreview
 from app.session import Selection, Session
 from app.settings import Settings
 from app.theme import icon, palette, system_theme
 from app.view import LINES, ViewState
 from app.window import Window
-from core.model.edits import clear_anchors, set_stage
+from core.model.edits import clear_anchors, set_stage, solve_again
 from core.model.inbetweens import PlanCache
 
 ARRANGEMENT_ACTIONS = {"overlaid": "view.overlaid", "side by side": "view.side", "compare": "view.compare"}
 THEME_ACTIONS = {"system": "view.theme_system", "light": "view.theme_light", "dark": "view.theme_dark"}
-METHOD_ACTIONS = {"linear": "span.linear", "intrinsic": "span.intrinsic"}
+SPAN_ACTIONS = ("span.clear", "span.again", "span.flip", "span.shift_on", "span.shift_back", "view.compare")
+METHOD_ACTIONS = {
+    "linear": "span.linear",
+    "intrinsic": "span.intrinsic",
+    "rigid": "span.rigid",
+    "auto": "span.auto",
+}
 
 
 class Editor(QObject):
@@ -43,8 +50,11 @@ class Editor(QObject):
         self.clipboard = Clipboard()
         self.plans = PlanCache()
         theme = system_theme(self.settings.text("theme", "system"))
-        self.window = Window(self.session, self.preview, self.view_state, self.playback, self.settings, theme)
-        self.files = Files(self.window, self.session, self.settings, self.window.tell)
+        self.ranked = AlternativesPreview(self.preview, self)
+        self.window = Window(
+            self.session, self.preview, self.ranked, self.view_state, self.playback, self.settings, theme
+        )
+        self.files = Files(self.window, self.session, self.settings, self.preview.with_answers, self.window.tell)
         self.export_dialog: ExportDialog | None = None
         self.window.table.connect_all(self._runs())
         self._connect()
@@ -100,6 +110,7 @@ class Editor(QObject):
         runs = {
             "view.onion": lambda: view.set(onion=not view.options.onion),
             "view.lines": self._next_lines,
+            "view.hues": lambda: view.set(hues=not view.options.hues),
             "view.final": lambda: view.set(final=not view.options.final),
             "view.fit": canvas.fit,
             "view.zoom_in": lambda: canvas.zoom(1.25),
@@ -117,6 +128,10 @@ class Editor(QObject):
             "key.copy": lambda: editing.copy_to_other_keyframe(session),
             "key.delete": lambda: editing.delete_current_keyframe(session),
             "span.clear": self._clear_anchors,
+            "span.again": self._solve_again,
+            "span.flip": lambda: matching.flip(session, self.preview),
+            "span.shift_on": lambda: matching.shift(session, self.preview, 1),
+            "span.shift_back": lambda: matching.shift(session, self.preview, -1),
             "play.toggle": playback.toggle,
             "play.loop": lambda: playback.set_loop(not playback.loop),
             "play.previous": lambda: self._step(-1),
@@ -142,12 +157,18 @@ class Editor(QObject):
         if before is not None and after is not None:
             self.session.apply("Clear Anchors", clear_anchors, self.session.layer.id, before.frame)
 
+    def _solve_again(self) -> None:
+        before, after = self.session.span_keyframes()
+        if before is not None and after is not None:
+            self.session.apply("Solve Again", solve_again, self.session.layer.id, before.frame)
+
     # connections
 
     def _connect(self) -> None:
         session, window = self.session, self.window
         session.problem.connect(lambda text: window.tell(text, "error"))
-        for signal_ in (session.documentChanged, session.frameChanged, session.layerChanged):
+        session.documentChanged.connect(self._on_document_changed)
+        for signal_ in (session.frameChanged, session.layerChanged):
             signal_.connect(self._refresh)
         for signal_ in (session.selectionChanged, session.gestureChanged, self.view_state.changed):
             signal_.connect(self._refresh)
@@ -164,6 +185,10 @@ class Editor(QObject):
         hints.colorSchemeChanged.connect(self._on_color_scheme)
         window.show_title()
 
+    def _on_document_changed(self) -> None:
+        if not self.session.in_gesture:  # at every step of a drag the menus can wait for its end
+            self._refresh()
+
     def _refresh(self, *_: object) -> None:
         """Show in menus and buttons what can be done now."""
         table, session, options = self.window.table, self.session, self.view_state.options
@@ -175,12 +200,13 @@ class Editor(QObject):
         table["edit.redo"].setText(f"Redo {stack.redoText()}".rstrip())
         before, after = session.span_keyframes()
         there = before is not None and after is not None
-        for name in (*METHOD_ACTIONS.values(), "span.clear", "view.compare"):
+        for name in (*METHOD_ACTIONS.values(), *SPAN_ACTIONS):
             table[name].setEnabled(there)
         if before is not None and there:
             table[METHOD_ACTIONS[before.span.method]].setChecked(True)
         table["key.delete"].setEnabled(session.layer.keyframe_at(session.frame) is not None)
         table["view.onion"].setChecked(options.onion)
+        table["view.hues"].setChecked(options.hues)
         table["view.final"].setChecked(options.final)
         table[ARRANGEMENT_ACTIONS[options.arrangement]].setChecked(True)
         self._show_playing()
@@ -282,6 +308,7 @@ class Editor(QObject):
             self.export_dialog.close()
         self.playback.stop()
         self.preview.stop()
+        self.ranked.stop()
         self.settings.keep("window/geometry", self.window.saveGeometry())
         event.accept()
 
@@ -320,7 +347,8 @@ def run(path: str | None = None, *, sample: bool = False) -> int:
     if path is not None:
         opened = editor.files.open_sample(Path(path)) if sample else editor.files.open_path(Path(path))
         if sample and opened:
-            editor.session.go_to(max(1, editor.session.document.length // 2))
+            first, second = editor.session.layer.frames()[:2]
+            editor.session.go_to((first + second) // 2)  # where the in-between is farthest from both
     editor.window.show()
     signal.signal(signal.SIGINT, lambda *_: editor.window.close())
     beat = QTimer()  # Python sees Ctrl+C only when it runs now and then

@@ -5,7 +5,8 @@ tell. So vertices are mapped to device px by numpy first, and thinned there.
 """
 
 import math
-from collections.abc import Iterable, Sequence
+from collections import OrderedDict
+from collections.abc import Callable, Iterable, Sequence
 from typing import Literal
 
 import numpy as np
@@ -23,12 +24,19 @@ from core.model.inbetweens import Picture, PlanCache, pictures_at
 Outlines = Sequence[tuple[FloatArray, bool]]
 Background = Literal["stage"] | Color | None
 
-RUN_LENGTH = 4.5
+RUN_LENGTH = 6.0
 """Device px; of a smooth outline one or two vertices are kept in a run, of a rugged one four."""
-UNSEEN = 0.04
-"""Device px; antialiasing has 256 steps a pixel, so less than this changes a pixel by 10 of 255 at most."""
+UNSEEN = 0.05
+"""Device px; antialiasing has 256 steps a pixel, so less than this changes a pixel by 13 of 255 at most."""
+ROUNDS = 2
+"""Once is enough while something moves; then a spike still shows, and its foot is a little off."""
 FEW_VERTICES = 64
 """Outlines as small as this are cheaper to paint than to look at."""
+BEVELLED = (1.0, 6.0)
+"""Device px; thinner strokes have no joints at all, and wider ones QPainter paints faster with round ones."""
+DOT = (0.001, 0.0)
+MOST_DOTS = 0.1
+"""Share of the vertices; with more sharp corners, rounding every joint is as fast."""
 
 
 def to_qcolor(color: Color) -> QColor:
@@ -38,11 +46,57 @@ def to_qcolor(color: Color) -> QColor:
 
 def outlines_path(outlines: Outlines, transform: QTransform) -> QPainterPath:
     """Return one path of all outlines in the px that `transform` maps to, thinned, to be filled odd-even."""
+    return _path(_thinned_outlines(outlines, transform))
+
+
+def _thinned_outlines(outlines: Outlines, transform: QTransform) -> list[tuple[FloatArray, bool]]:
+    return [(_thinned(_mapped(p, transform), closed=closed), closed) for p, closed in outlines if len(p)]
+
+
+class Thinner:
+    """Thins outlines, and remembers those that cannot change (read-only arrays) for the next picture.
+
+    `rounds` may be set lower while pictures follow each other quickly.
+    """
+
+    def __init__(self, capacity: int = 64) -> None:
+        self.rounds = ROUNDS
+        self._capacity = capacity
+        self._kept: OrderedDict[object, tuple[FloatArray, FloatArray]] = OrderedDict()
+
+    def __call__(self, outlines: Outlines, transform: QTransform) -> list[tuple[FloatArray, bool]]:
+        where = (
+            transform.m11(),
+            transform.m12(),
+            transform.m21(),
+            transform.m22(),
+            transform.dx(),
+            transform.dy(),
+        )
+        return [(self._thinned(p, closed, where, transform), closed) for p, closed in outlines if len(p)]
+
+    def _thinned(self, points: FloatArray, closed: bool, where: object, transform: QTransform) -> FloatArray:
+        if points.flags.writeable:
+            return _thinned(_mapped(points, transform), closed=closed, rounds=self.rounds)
+        key = (id(points), closed, where, self.rounds)
+        found = self._kept.get(key)
+        if found is None:
+            # the array is kept too, so that no other one can take its id
+            found = self._kept[key] = (
+                points,
+                _thinned(_mapped(points, transform), closed=closed, rounds=self.rounds),
+            )
+        self._kept.move_to_end(key)
+        while len(self._kept) > self._capacity:
+            self._kept.popitem(last=False)
+        return found[1]
+
+
+def _path(outlines: Outlines) -> QPainterPath:
     path = QPainterPath()
     path.setFillRule(Qt.FillRule.OddEvenFill)
     for points, closed in outlines:
-        if len(points):
-            path.addPolygon(_polygon(_thinned(_mapped(points, transform), closed=closed), closed=closed))
+        path.addPolygon(_polygon(points, closed=closed))
     return path
 
 
@@ -53,11 +107,12 @@ def _mapped(points: FloatArray, transform: QTransform) -> FloatArray:
     return mapped
 
 
-def _thinned(points: FloatArray, *, closed: bool) -> FloatArray:
+def _thinned(points: FloatArray, *, closed: bool, rounds: int = ROUNDS) -> FloatArray:
     """Drop vertices that cannot be seen.
 
-    Of every run of `RUN_LENGTH` px its start stays, then twice whatever stands out farthest from the lines between
-    those that stay. An edge longer than a run is a run of its own, so the corners of ordinary polygons stay.
+    Of every run of `RUN_LENGTH` px its start stays, then `rounds` times whatever stands out farthest from the
+    lines between those that stay. An edge longer than a run is a run of its own, so the corners of ordinary
+    polygons stay.
     """
     n = len(points)
     if n <= FEW_VERTICES:
@@ -69,7 +124,7 @@ def _thinned(points: FloatArray, *, closed: bool) -> FloatArray:
     stays = np.ones(n, dtype=bool)
     np.not_equal(run[1:], run[:-1], out=stays[1:])
     stays[-1] = True
-    for _ in range(2):
+    for _ in range(rounds):
         starts = np.flatnonzero(stays)
         distance = _distance_to_chord(x, y, starts, closed=closed)
         farthest = np.maximum.reduceat(distance, starts)
@@ -121,24 +176,58 @@ def paint_outlines(
     stroke: QColor | None,
     width: float,
     transform: QTransform | None = None,
+    thin: Callable[[Outlines, QTransform], Outlines] | None = None,
 ) -> None:
     """Fill outlines odd-even, then stroke them `width` device px wide.
 
     `transform` maps the vertices to the px of the painter's untransformed surface; None takes the painter's own.
+    `thin` is a `Thinner` that is kept from picture to picture.
     """
     painter.save()
     own = painter.deviceTransform()
     surface = _enter_device(painter)
-    path = outlines_path(outlines, own if transform is None else transform * surface)
+    thinned = (thin or _thinned_outlines)(outlines, own if transform is None else transform * surface)
+    path = _path(thinned)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     if fill is not None:
         painter.fillPath(path, fill)
     if stroke is not None and width > 0:
-        pen = QPen(stroke, width)
-        pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
-        pen.setCapStyle(Qt.PenCapStyle.RoundCap)
-        painter.strokePath(path, pen)
+        _stroke(painter, path, thinned, QPen(stroke, width))
     painter.restore()
+
+
+def _stroke(painter: QPainter, path: QPainterPath, outlines: Outlines, pen: QPen) -> None:
+    """Stroke with round joints.
+
+    QPainter takes half as long again to round a joint as to bevel it, and on a smooth outline there is no seeing
+    which. So joints are bevelled, and the few where it shows get a dot: a line of next to no length, round caps.
+    """
+    pen.setCapStyle(Qt.PenCapStyle.RoundCap)
+    pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
+    if BEVELLED[0] < pen.widthF() <= BEVELLED[1] and sum(len(p) for p, _ in outlines) > FEW_VERTICES:
+        corners = [_sharp_corners(p, pen.widthF(), closed=closed) for p, closed in outlines]
+        if sum(map(len, corners)) < MOST_DOTS * sum(len(p) for p, _ in outlines):
+            pen.setJoinStyle(Qt.PenJoinStyle.BevelJoin)
+            for corner in np.concatenate(corners):
+                path.addPolygon(_polygon(np.array([corner, corner + DOT]), closed=False))
+    painter.strokePath(path, pen)
+
+
+def _sharp_corners(points: FloatArray, width: float, *, closed: bool) -> FloatArray:
+    """Return the vertices where a bevel would cut more than `UNSEEN` off a round joint."""
+    if len(points) < 3:
+        return points[:0]
+    edges = np.diff(points, axis=0, append=points[:1])
+    into = np.roll(edges, 1, axis=0)
+    dot = (into * edges).sum(axis=1)
+    length = np.sqrt((into * into).sum(axis=1) * (edges * edges).sum(axis=1))
+    # the bevel leaves (1 - cos(turn / 2)) width / 2 of the round joint
+    half_cosine = max(0.0, 1 - 2 * UNSEEN / width)
+    sharp = dot < (2 * half_cosine**2 - 1) * length
+    if not closed:
+        sharp[[0, -1]] = False
+    corners: FloatArray = points[sharp]
+    return corners
 
 
 def _enter_device(painter: QPainter) -> QTransform:

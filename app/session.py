@@ -146,7 +146,7 @@ class Session(QObject):
         super().__init__(parent)
         self.undo_stack = QUndoStack(self)
         self.undo_stack.setUndoLimit(UNDO_LIMIT)
-        self.undo_stack.cleanChanged.connect(lambda _: self.fileChanged.emit())
+        self.undo_stack.cleanChanged.connect(self._on_clean_changed)
         self._document = Document()
         self._selection = Selection()
         self._frame = 1
@@ -154,6 +154,9 @@ class Session(QObject):
         self._gesture: Gesture | None = None
         self.path: Path | None = None
         self.title: str | None = None
+
+    def _on_clean_changed(self, _: bool) -> None:
+        self.fileChanged.emit()
 
     # what is open
 
@@ -312,11 +315,14 @@ class Session(QObject):
         """Open a file; raises InkbetweenError and keeps the open document if that fails."""
         self._replace(load(path), path, None)
 
-    def save(self, path: Path) -> None:
-        """Write the document; raises StorageError and stays modified if that fails."""
+    def save(self, path: Path, completed: Document | None = None) -> None:
+        """Write the document, or `completed`: the same one with the solver's answers stored in it.
+
+        Raises StorageError and stays modified if that fails.
+        """
         if self._gesture is not None:
             self._gesture.commit()
-        save(self._document, path)
+        save(completed or self._document, path)
         self.path, self.title = path, None
         self.undo_stack.setClean()
         self.fileChanged.emit()

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 
 from app.actions import ACTIONS, MENUS, ActionTable
 from app.canvas.canvas import Canvas
+from app.panels.alternatives import AlternativesPanel
 from app.panels.drawing import DrawingPanel
 from app.panels.easing import EasingPanel
 from app.panels.messagebar import MessageBar
@@ -23,6 +24,7 @@ from app.panels.parts import separator
 from app.panels.span import SpanPanel
 from app.panels.timeline import Timeline, action_button
 from app.playback import Playback
+from app.preview.alternatives import AlternativesPreview
 from app.preview.spans import SpanPreview
 from app.session import Session
 from app.settings import Settings
@@ -47,6 +49,7 @@ class Window(QMainWindow):
         self,
         session: Session,
         preview: SpanPreview,
+        ranked: AlternativesPreview,
         view: ViewState,
         playback: Playback,
         settings: Settings,
@@ -63,7 +66,8 @@ class Window(QMainWindow):
             "tool.correspond": CorrespondTool(self.canvas),
         }
         self.timeline = Timeline(session, view, playback, theme, self.table.actions)
-        self.span_panel = SpanPanel(session, view, self.table.actions)
+        self.alternatives_panel = AlternativesPanel(session, preview, ranked, theme)
+        self.span_panel = SpanPanel(session, view, self.table.actions, preview, self.alternatives_panel)
         self.easing_panel = EasingPanel(session, theme)
         self.drawing_panel = DrawingPanel(session, theme, *self._tolerance())
         self.setCentralWidget(self._central())
@@ -141,6 +145,7 @@ class Window(QMainWindow):
         bar = self.statusBar()
         bar.setSizeGripEnabled(False)
         self.hint_label = QLabel()
+        self.hint_label.setMinimumWidth(1)  # a narrow window cuts the hint, not the window's width
         self.place_label = QLabel()
         self.place_label.setMinimumWidth(90)
         self.zoom_label = QLabel()
@@ -194,6 +199,7 @@ class Window(QMainWindow):
         if tool is not self.canvas.tool:
             self.canvas.set_tool(tool)
         self.hint_label.setText(tool.hint)
+        self.hint_label.setToolTip(tool.hint)
         self.canvas.setFocus()
 
     def tell(self, text: str, kind: str = "error") -> None:
@@ -214,7 +220,8 @@ class Window(QMainWindow):
         self.theme = theme
         self.setStyleSheet(style_sheet(theme))
         self.table.set_theme(theme)
-        for part in (self.canvas, self.timeline, self.easing_panel, self.drawing_panel, self.message_bar):
+        panels = (self.alternatives_panel, self.easing_panel, self.drawing_panel)
+        for part in (self.canvas, self.timeline, *panels, self.message_bar):
             part.set_theme(theme)
 
     def closeEvent(self, event: QCloseEvent) -> None:

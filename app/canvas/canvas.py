@@ -20,6 +20,7 @@ from app.canvas.items import (
 )
 from app.canvas.papers import whole_area
 from app.canvas.tool import Pointer, Tool
+from app.painting import ROUNDS, Thinner
 from app.preview.spans import SpanPreview
 from app.session import Session
 from app.theme import Theme
@@ -52,6 +53,7 @@ class Canvas(pg.GraphicsView):
         self.camera = Camera()
         self.tool: Tool | None = None
         self.hover: QPointF | None = None
+        self.thinner = Thinner()
         self._plans = PlanCache()
         self._content: Content | None = None
         self._follows_stage = True
@@ -80,6 +82,7 @@ class Canvas(pg.GraphicsView):
         for signal in (s.documentChanged, s.frameChanged, s.layerChanged, s.selectionChanged):
             signal.connect(self._on_changed)
         self.preview.planned.connect(self._on_changed)
+        s.gestureChanged.connect(self._on_gesture_changed)
         self.view_state.changed.connect(self._on_view_changed)
         self._shown_papers: object = None
 
@@ -101,9 +104,15 @@ class Canvas(pg.GraphicsView):
         self._content = None
         self.viewport().update()
 
+    def _on_gesture_changed(self, under_way: bool) -> None:
+        """Paint a little coarser while the hand moves, in full when it rests."""
+        self.thinner.rounds = 1 if under_way else ROUNDS
+        self.viewport().update()
+
     def _on_view_changed(self) -> None:
         if self._content is not None and self._content.options.arrangement != self.view_state.options.arrangement:
             self._follows_stage = True
+            self.hover = None  # what lay under the pointer lies elsewhere now
         self._on_changed()
 
     def set_theme(self, theme: Theme) -> None:

@@ -38,6 +38,8 @@ class Content:
     before, after : Keyframe or None
         Of the span under the playhead in the active layer.
     plan : SpanPlan or None
+    waiting : bool
+        The plan stands in for one that is being solved.
     t : float or None
         Eased t at the playhead; None outside every span.
     picture : Picture or None
@@ -54,6 +56,7 @@ class Content:
     before: Keyframe | None
     after: Keyframe | None
     plan: SpanPlan | None
+    waiting: bool
     t: float | None
     picture: Picture | None
     others: tuple[tuple[Picture, bool], ...]
@@ -101,6 +104,7 @@ def build_content(session: Session, preview: SpanPreview, plans: PlanCache, opti
         before,
         after,
         plan,
+        plan is not None and before is not None and preview.waiting(before),
         t,
         picture if layer.visible or not options.final else None,
         _others(document, layer.id, frame, plans),
@@ -128,28 +132,38 @@ def _others(document: Document, active: int, frame: int, plans: PlanCache) -> tu
 
 def _onion(session: Session, preview: SpanPreview, options: ViewOptions) -> tuple[OnionSkin, ...]:
     """Return the skins, the farthest first, so that near ones lie on top."""
-    skins = []
+    wanted = []
     for side, count, step in (("before", options.onion_before, -1), ("after", options.onion_after, 1)):
         for distance in range(count, 0, -1):
             frame = session.frame + step * distance
-            if not 1 <= frame <= session.document.length:
-                continue
-            picture = _layer_picture(session, preview, frame)
-            if picture is not None:
+            if 1 <= frame <= session.document.length:
                 strength = options.onion_strength * (1 - (distance - 1) / (count + 1))
-                skins.append(OnionSkin(picture.outlines, side, strength))
-    return tuple(skins)
+                wanted.append((frame, side, strength))
+    shapes = _layer_outlines(session, preview, [frame for frame, _, _ in wanted])
+    return tuple(OnionSkin(shapes[f], side, strength) for f, side, strength in wanted if f in shapes)
 
 
-def _layer_picture(session: Session, preview: SpanPreview, frame: int) -> Picture | None:
-    """Return the active layer at another frame; nothing behind its last keyframe, where nothing moves."""
-    keyframe = session.layer.keyframe_at(frame)
-    if keyframe is not None:
-        return keyframe_picture(keyframe.drawing)
-    before, after = session.layer.around(frame)
-    if before is None or after is None:
-        return None
-    return preview.plan(before, after).picture(_t_at(before, after, frame))
+def _layer_outlines(session: Session, preview: SpanPreview, frames: list[int]) -> dict[int, OutlineShapes]:
+    """Return the active layer at other frames; none behind its last keyframe, where nothing moves.
+
+    The in-betweens of one span are evaluated together.
+    """
+    found: dict[int, OutlineShapes] = {}
+    by_span: dict[int, tuple[Keyframe, Keyframe, list[int]]] = {}
+    for frame in frames:
+        keyframe = session.layer.keyframe_at(frame)
+        before, after = session.layer.around(frame)
+        if keyframe is not None:
+            found[frame] = keyframe_picture(keyframe.drawing).outlines
+        elif before is not None and after is not None:
+            by_span.setdefault(before.frame, (before, after, []))[2].append(frame)
+    for before, after, inside in by_span.values():
+        plan = preview.plan(before, after)
+        shapes = plan.frames([_t_at(before, after, frame) for frame in inside])
+        closed = [link.aligned.closed for link in plan.links]
+        for i, frame in enumerate(inside):
+            found[frame] = tuple((s[i], c) for s, c in zip(shapes, closed, strict=True))
+    return found
 
 
 def _films(

@@ -5,22 +5,27 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPainterPath, QPen
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPainterPath, QPen, QTransform
 from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
 from app.canvas.content import FILM_TIMES, Content
-from app.canvas.hits import anchor_places
+from app.canvas.hits import anchor_places, is_muted
+from app.canvas.lines import HUE_PIECES, MOST_LOOKED_AT, hue_pieces, line_papers, shown_rows
 from app.canvas.papers import AFTER, BEFORE, INBETWEEN, Paper
-from app.painting import paint_outlines, paint_picture, to_qcolor
-from core.geometry.outline import FloatArray, arc_lengths, perimeter
+from app.painting import Outlines, paint_outlines, paint_picture, to_qcolor
+from core.geometry.outline import FloatArray, perimeter
 
 if TYPE_CHECKING:
     from app.canvas.canvas import Canvas
 
 KEY_WIDTH = 1.8
 INBETWEEN_WIDTH = 2.2
+HUE_WIDTH = 3.0
 SKIN_WIDTH = 1.0
-MOST_LINES = 40
+HUES = ("#0072b2", "#56b4e9", "#009e73", "#f0e442", "#e69f00", "#d55e00", "#cc79a7")
+"""The colours of M. Okabe and K. Ito (2008), which people with any kind of colour vision can tell apart."""
+
+FEW_SKIN_VERTICES = 1000
 CLOSEST_VERTICES = 7.0
 """View px: vertices nearer to each other on average are not marked one by one."""
 
@@ -43,6 +48,26 @@ class CanvasItem(pg.GraphicsObject):
 
     def draw(self, painter: QPainter, content: Content) -> None:
         """Paint this kind of thing."""
+
+    def paint_lines(
+        self,
+        painter: QPainter,
+        outlines: Outlines,
+        stroke: QColor | None,
+        width: float,
+        transform: QTransform,
+        fill: QColor | None = None,
+    ) -> None:
+        """Paint outlines `width` view px wide."""
+        paint_outlines(
+            painter,
+            outlines,
+            fill=fill,
+            stroke=stroke,
+            width=width * self.canvas.devicePixelRatioF(),
+            transform=transform,
+            thin=self.canvas.thinner,
+        )
 
 
 class PaperItem(CanvasItem):
@@ -83,9 +108,8 @@ class OnionItem(CanvasItem):
             transform = self.canvas.camera.transform(paper.offset)
             for skin in content.onion:
                 color = self.canvas.theme.color(f"onion_{skin.side}", skin.strength)
-                paint_outlines(
-                    painter, skin.outlines, fill=None, stroke=color, width=SKIN_WIDTH, transform=transform
-                )
+                outlines = [(spaced(p, self.canvas.camera.scale), closed) for p, closed in skin.outlines]
+                self.paint_lines(painter, outlines, color, SKIN_WIDTH, transform)
 
 
 class FilmItem(CanvasItem):
@@ -99,7 +123,7 @@ class FilmItem(CanvasItem):
                 color = blend(theme.color("before"), theme.color("after"), t)
                 fill = QColor(color)
                 fill.setAlphaF(0.10)
-                paint_outlines(painter, outlines, fill=fill, stroke=color, width=1.3, transform=transform)
+                self.paint_lines(painter, outlines, color, 1.3, transform, fill)
 
 
 class ShapesItem(CanvasItem):
@@ -120,11 +144,22 @@ class ShapesItem(CanvasItem):
             keyframe = content.editable(side)
             if keyframe is None or side not in paper.shows:
                 continue
+            if content.options.hues and content.plan is not None:
+                self._draw_hues(painter, content, side, transform)
+                continue
             alone = content.before is None or content.after is None
             held = alone and keyframe.frame != content.frame  # shown, though the playhead is elsewhere
             color = self.canvas.theme.color(side, 0.55 if held else 1.0)
             outlines = [(o.points, o.closed) for o in keyframe.drawing.outlines]
-            paint_outlines(painter, outlines, fill=None, stroke=color, width=KEY_WIDTH, transform=transform)
+            self.paint_lines(painter, outlines, color, KEY_WIDTH, transform)
+
+    def _draw_hues(self, painter: QPainter, content: Content, side: str, transform: QTransform) -> None:
+        """Draw an outline in pieces, each in the colour of its share of the correspondence."""
+        for link in content.plan.links if content.plan else ():
+            points = link.aligned.left if side == BEFORE else link.aligned.right
+            for i, rows in enumerate(hue_pieces(link)):
+                piece = [(points[rows], False)]
+                self.paint_lines(painter, piece, hue(i), HUE_WIDTH, transform)
 
     def _draw_inbetween(self, painter: QPainter, content: Content, paper: Paper) -> None:
         if content.picture is None or INBETWEEN not in paper.shows:
@@ -135,14 +170,7 @@ class ShapesItem(CanvasItem):
         stroke = None if on_key or beside else theme.color("inbetween")
         fill = theme.color("accent", 0.16)
         transform = self.canvas.camera.transform(paper.offset)
-        paint_outlines(
-            painter,
-            content.picture.outlines,
-            fill=fill,
-            stroke=stroke,
-            width=INBETWEEN_WIDTH,
-            transform=transform,
-        )
+        self.paint_lines(painter, content.picture.outlines, stroke, INBETWEEN_WIDTH, transform, fill)
 
 
 class LinesItem(CanvasItem):
@@ -165,7 +193,7 @@ class LinesItem(CanvasItem):
         path = QPainterPath()
         for link in content.plan.links if content.plan else ():
             left, right = link.aligned.left, link.aligned.right
-            rows = spread_rows(left, right, link.aligned.closed)
+            rows = shown_rows(link)
             ends = camera.to_view(left[rows], start.offset), camera.to_view(right[rows], end.offset)
             for p, q in zip(*ends, strict=True):
                 path.moveTo(p[0], p[1])
@@ -176,7 +204,11 @@ class LinesItem(CanvasItem):
         camera, theme = self.canvas.camera, self.canvas.theme
         chosen = self.canvas.session.selection.anchor
         for ref, p, q in anchor_places(content):
-            painter.setPen(QPen(theme.color("accent"), 2.4 if ref == chosen else 1.5))
+            pen = QPen(theme.color("accent"), 2.4 if ref == chosen else 1.5)
+            if is_muted(content, ref):
+                pen.setStyle(Qt.PenStyle.DashLine)
+                pen.setColor(theme.color("muted"))
+            painter.setPen(pen)
             a, b = camera.to_view(p, start.offset), camera.to_view(q, end.offset)
             painter.drawLine(QPointF(*a), QPointF(*b))
 
@@ -200,8 +232,7 @@ class HandlesItem(CanvasItem):
         selected = self.canvas.session.selection.vertices
         for paper, side, ref, outline in content.outlines():
             points = camera.to_view(outline.points, paper.offset)
-            spacing = camera.scale * perimeter(outline.points, closed=outline.closed) / len(points)
-            if spacing >= CLOSEST_VERTICES and not content.films:
+            if vertex_spacing(points) >= CLOSEST_VERTICES and not content.films:
                 draw_dots(painter, points, theme.color(side), theme.color("stage"))
             chosen = selected.get(ref)
             if chosen:
@@ -255,6 +286,8 @@ class LabelsItem(CanvasItem):
             words.append((f"after  frame {content.after.frame}", "after"))
         if INBETWEEN in paper.shows and content.t is not None and self._between(content):
             words.append((f"in-between  frame {content.frame}", "inbetween"))
+        if content.waiting and INBETWEEN in paper.shows and content.plan is not None:
+            words.append((f"solving … ({content.plan.paths.method} shown)", "muted"))
         return words
 
     def _between(self, content: Content) -> bool:
@@ -284,20 +317,26 @@ class ToolItem(CanvasItem):
             self.canvas.tool.paint(painter)
 
 
-def line_papers(content: Content) -> list[tuple[Paper, Paper]]:
-    """Return from which paper to which the correspondence is drawn."""
-    starts = [p for p in content.papers if BEFORE in p.shows]
-    ends = [p for p in content.papers if AFTER in p.shows]
-    return [(p, p) for p in starts if p in ends] or list(zip(starts, ends, strict=False))
+def hue(piece: int) -> QColor:
+    """Return the colour of a piece of the correspondence."""
+    place = piece / HUE_PIECES * len(HUES)
+    i = int(place)
+    return blend(QColor(HUES[i]), QColor(HUES[(i + 1) % len(HUES)]), place - i)
 
 
-def spread_rows(left: FloatArray, right: FloatArray, closed: bool) -> FloatArray:
-    """Return the indices of at most MOST_LINES rows, evenly spread along both outlines."""
-    if len(left) <= MOST_LINES:
-        return np.arange(len(left))
-    lengths = (arc_lengths(side, closed=closed) for side in (left, right))
-    along = sum(s[: len(left)] / max(float(s[-1]), 1e-12) for s in lengths)
-    return np.unique(np.searchsorted(along, np.linspace(0, float(along[-1]), MOST_LINES)).clip(0, len(left) - 1))
+def spaced(points: FloatArray, scale: float) -> FloatArray:
+    """Leave out vertices of a skin where many share one view px: a ghost needs no better."""
+    if len(points) <= FEW_SKIN_VERTICES:
+        return points
+    wide, high = np.ptp(points[:: len(points) // 256], axis=0) * scale
+    return points[:: max(1, int(len(points) / (1.5 * max(wide + high, 1.0))))]
+
+
+def vertex_spacing(points: FloatArray) -> float:
+    """Return the mean distance of neighbouring vertices, of a part of them where there are very many."""
+    if len(points) > 4 * MOST_LOOKED_AT:
+        points = points[:MOST_LOOKED_AT]
+    return perimeter(points, closed=False) / max(len(points) - 1, 1)
 
 
 def draw_dots(painter: QPainter, points: FloatArray, ring: QColor, fill: QColor, size: float = 7.0) -> None:

@@ -129,7 +129,7 @@ def _edit(parsed: argparse.Namespace) -> int:
 def _demo(parsed: argparse.Namespace) -> int:
     sample = resources.folder() / "samples" / f"{resources.DEMO}.inkb"
     if has_display():
-        return _open_window(str(sample))
+        return _open_window(str(sample), sample=True)
     from core.io.project import load
 
     document = load(sample)
@@ -148,13 +148,13 @@ def _free_folder(parent: Path, name: str) -> Path:
     return free
 
 
-def _open_window(path: str | None) -> int:
+def _open_window(path: str | None, *, sample: bool = False) -> int:
     check_window_libraries()
     try:
         from app import bootstrap
     except ImportError as e:
         raise without_qt(e) from e
-    return bootstrap.run(path)
+    return bootstrap.run(path, sample=sample)
 
 
 def _qt_export() -> ModuleType:

@@ -57,6 +57,8 @@ class ExportJob(QObject):
             )
         except InkbetweenError as e:
             result = e
+        except Exception as e:  # a mistake of ours must not leave the dialog waiting for ever
+            result = InkbetweenError(f"the export stopped: {e}")
         self.finished.emit(result)
 
 
@@ -71,27 +73,31 @@ class ExportDialog(QDialog):
         self.setMinimumWidth(460)
         self._document = document
         self._job: ExportJob | None = None
+        self._make_fields(name, folder)
+        self._lay_out()
+        self._fill()
+
+    def _make_fields(self, name: str, folder: Path) -> None:
+        last = self._document.length
         self.folder = QLineEdit(str(folder))
         self.name = QLineEdit(name)
-        stage = document.stage
         self.wide = number_field(1, LARGEST_STAGE, "Width of the pictures in px", self._show_example, 80)
         self.high = number_field(1, LARGEST_STAGE, "Height of the pictures in px", self._show_example, 80)
-        self.first = number_field(1, document.length, "First frame", self._show_example, 80)
-        self.last = number_field(1, document.length, "Last frame", self._show_example, 80)
-        for field, value in (
-            (self.wide, stage.width),
-            (self.high, stage.height),
-            (self.first, 1),
-            (self.last, document.length),
-        ):
-            field.setValue(value)
+        self.first = number_field(1, last, "First frame", self._show_example, 80)
+        self.last = number_field(1, last, "Last frame", self._show_example, 80)
         self.transparent = QCheckBox("transparent background")
-        self.transparent.setChecked(stage.background is None)
         self.example = label("", "muted")
         self.example.setWordWrap(True)
         self.bar = QProgressBar()
         self.bar.setVisible(False)
-        self._lay_out()
+
+    def _fill(self) -> None:
+        """Begin with every frame, as large as the stage."""
+        stage = self._document.stage
+        self.wide.setValue(stage.width)
+        self.high.setValue(stage.height)
+        self.last.setValue(self._document.length)
+        self.transparent.setChecked(stage.background is None)
         self.name.textChanged.connect(self._show_example)
         self.folder.textChanged.connect(self._show_example)
         self._show_example()

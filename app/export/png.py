@@ -1,7 +1,7 @@
 """One picture to the bytes of a PNG file, with straight alpha.
 
 Flat colours are runs of one pixel. The filter "sub" turns a run into zeros, and zlib's strategy for runs packs
-those as fast as its level 1 goes and smaller than its level 6: see docs/decisions/0004-painting-and-export.md.
+those as fast as its level 1 and a quarter smaller: see docs/decisions/0004-painting-and-export.md.
 """
 
 import struct

@@ -47,8 +47,9 @@ class EasingPlot(QWidget):
         return QSize(260, 132)
 
     def show_easing(self, easing: Easing, frames: tuple[int, int], ratio: float | None) -> None:
-        self.easing, self.frames, self.ratio = easing, frames, ratio
-        self.update()
+        if (easing, frames, ratio) != (self.easing, self.frames, self.ratio):
+            self.easing, self.frames, self.ratio = easing, frames, ratio
+            self.update()
 
     def _plot(self) -> QRectF:
         return QRectF(0.5, 0.5, self.width() - CHART, self.height() - 1)

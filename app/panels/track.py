@@ -4,9 +4,9 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QContextMenuEvent, QFont, QKeyEvent, QMouseEvent, QPainter, QPen, QPolygonF, QWheelEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from app.session import Gesture, Session
+from app.session import DocumentDiff, Gesture, Session
 from app.theme import Theme
-from core.model.document import Layer
+from core.model.document import Document, Layer
 from core.model.edits import move_keyframe
 
 HEADER = 120
@@ -17,6 +17,10 @@ NARROWEST = 5.0
 WIDEST = 60.0
 DIAMOND = 7.0
 SELDOM = (1, 2, 5, 6, 12, 24, 48, 120, 240, 600, 1200, 6000, 12000, 60000)
+
+
+def _shown(document: Document) -> list[tuple[object, ...]]:
+    return [(layer.id, layer.name, layer.visible, layer.frames()) for layer in document.layers]
 
 
 class Track(QWidget):
@@ -38,8 +42,8 @@ class Track(QWidget):
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setToolTip("")
-        for signal in (session.documentChanged, session.layerChanged):
-            signal.connect(lambda *_: self.update())
+        session.documentChanged.connect(self._on_document_changed)
+        session.layerChanged.connect(self.update)
         session.frameChanged.connect(self._on_frame_changed)
 
     def sizeHint(self) -> QSize:
@@ -178,6 +182,11 @@ class Track(QWidget):
     @staticmethod
     def _clipped(value: float, most: float) -> float:
         return min(max(value, 0.0), max(most, 0.0))
+
+    def _on_document_changed(self, diff: DocumentDiff) -> None:
+        """Paint again only what shows here: moving a vertex changes neither frames nor names."""
+        if diff.frame_range or _shown(diff.before) != _shown(diff.after):
+            self.update()
 
     def _on_frame_changed(self, frame: int) -> None:
         x = self.x_of(frame)

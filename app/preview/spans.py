@@ -1,66 +1,144 @@
 """Plans of spans for the canvas: at once with what is known, better as soon as the worker has solved it."""
 
+import threading
+import time
 from collections import OrderedDict
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
+import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.preview.worker import NewestWins
-from core.correspondence.matching import match
+from core.correspondence.matching import match, match_quick
 from core.correspondence.pairing import Correspondence
-from core.errors import InkbetweenError
-from core.model.document import Anchor, Keyframe
-from core.model.drawing import Outline
-from core.model.inbetweens import PairMatch, SpanMatch, SpanPlan, paired_outlines, plan_span
+from core.errors import CancelledError, InkbetweenError
+from core.geometry.outline import perimeter
+from core.model.document import Document, Keyframe, Span
+from core.model.drawing import Drawing, Outline
+from core.model.edits import store_answer
+from core.model.inbetweens import PairMatch, Rows, SpanMatch, SpanPlan, paired_outlines, plan_span
 
 PAUSE_MS = 40
 """The worker starts when nothing new was asked for this long: while a vertex is dragged, the pairs stay put."""
 
+QUICK_METHODS = ("linear", "intrinsic")
+QUICK_SECONDS = 0.012
+"""A plan that takes no longer is made at every step of a drag."""
+
+MOST_DRAGGED_ROWS = 6000
 MOST_KEPT = 256
-QUICK_CELLS = 40_000
-"""Outlines with at most this many vertex pairs are matched at once, between two frames of a drag."""
+
+Progress = Callable[[float], None]
+Pairs = tuple[tuple[int, int], ...]
+PairRef = tuple[int, int, int]
+"""The frame that a span begins at, and the ids of two outlines."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Task:
-    """Two outlines to be matched."""
+    """Two outlines to be matched, and the frames of their keyframes."""
 
     before: Outline
     after: Outline
-    anchors: tuple[Anchor, ...]
+    anchors: tuple[tuple[float, float], ...]
+    frames: tuple[int, int]
+    kept: Correspondence | None = None
 
-    def key(self) -> tuple[int, int, tuple[Anchor, ...]]:
-        return id(self.before), id(self.after), self.anchors
+    @property
+    def closed(self) -> bool:
+        return self.before.closed and self.after.closed
+
+    def key(self) -> tuple[object, ...]:
+        return id(self.before), id(self.after), self.anchors, id(self.kept)
 
     def likeness(self) -> tuple[object, ...]:
-        """Equal for tasks whose correspondences fit each other's outlines."""
+        """Equal for tasks whose vertices can share a correspondence."""
         a, b = self.before, self.after
-        return a.id, b.id, len(a.points), len(b.points), a.closed, b.closed, self.anchors
+        return self.frames, a.id, b.id, len(a.points), len(b.points), a.closed, b.closed
 
     def solve(self) -> Correspondence:
-        closed = self.before.closed and self.after.closed
-        return match(self.before.points, self.after.points, self.anchors, closed=closed)
+        """Return the kept correspondence, or the solver's answer."""
+        if self.kept is not None:
+            return self.kept
+        return match(self.before.points, self.after.points, self.anchors, closed=self.closed)
+
+    def solve_quickly(self, near: Correspondence | None) -> Correspondence:
+        return match_quick(self.before.points, self.after.points, self.anchors, closed=self.closed, near=near)
+
+    def rows(self, correspondence: Correspondence) -> Rows:
+        return correspondence.aligned_positions(self.before.points, self.after.points)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class _Solved:
+    """A task's answer; `rows` are worked out once and hold while vertices are only moved."""
+
     task: _Task
     correspondence: Correspondence
+    rows: Rows
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _PlanTask:
+    """A span to be planned, with its solved correspondences."""
+
+    before: Keyframe
+    after: Keyframe
+    span: Span
+    solved: tuple[_Solved, ...]
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        drawings, s = (id(self.before.drawing), id(self.after.drawing)), self.span
+        return *drawings, s.method, s.turns, s.repair, *(id(x) for x in self.solved)
+
+    def likeness(self) -> tuple[object, ...]:
+        """Equal for plans that take about as long."""
+        return self.span.method, self.span.repair, *(x.task.likeness() for x in self.solved)
+
+    def solve(self, progress: Progress | None = None, cancelled: Callable[[], bool] | None = None) -> "_Planned":
+        began = time.perf_counter()
+        pairs = (PairMatch(s.task.before.id, s.task.after.id, s.correspondence, s.rows) for s in self.solved)
+        match = SpanMatch(tuple(pairs))
+        plan = plan_span(
+            self.before.drawing, self.after.drawing, self.span, match, progress=progress, cancelled=cancelled
+        )
+        return _Planned(self, plan, time.perf_counter() - began)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Planned:
+    """A plan; it keeps its task, so that no other object can take the ids in its key."""
+
+    task: _PlanTask
+    plan: SpanPlan
+    seconds: float
 
 
 class SpanPreview(QObject):
     """Gives plans without ever making the window wait; `planned` says that a better one is there."""
 
     planned = Signal()
+    progressed = Signal(float)
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._exact: OrderedDict[object, _Solved] = OrderedDict()
-        self._alike: OrderedDict[object, Correspondence] = OrderedDict()
-        self._plans: OrderedDict[object, tuple[object, SpanPlan]] = OrderedDict()
-        self._wanted: dict[object, _Task] = {}
+        self._alike: OrderedDict[object, _Solved] = OrderedDict()
+        self._plans: OrderedDict[object, _Planned] = OrderedDict()
+        self._slow: dict[int, _PlanTask] = {}
+        self._seconds: dict[object, float] = {}
+        self._cancel = threading.Event()
+        self._pairs: OrderedDict[object, tuple[object, Pairs]] = OrderedDict()
+        self._wanted: OrderedDict[object, _Task] = OrderedDict()
+        self._trial: tuple[PairRef, Correspondence] | None = None
+        self._coarse: tuple[_Solved, bool, _Solved] | None = None
         self._worker = NewestWins(self)
         self._worker.finished.connect(self._on_solved)
+        self._planner = NewestWins(self)
+        self._planner.finished.connect(self._on_planned)
         self._pause = QTimer(self)
         self._pause.setSingleShot(True)
         self._pause.setInterval(PAUSE_MS)
@@ -69,86 +147,222 @@ class SpanPreview(QObject):
     @property
     def settled(self) -> bool:
         """Whether every plan given so far is the final one."""
-        return not self._wanted and self._worker.idle
+        return not self._wanted and not self._slow and self._worker.idle and self._planner.idle
 
     def stop(self) -> None:
         self._pause.stop()
+        self._cancel.set()
         self._worker.stop()
+        self._planner.stop()
 
     def plan(self, before: Keyframe, after: Keyframe, method: str | None = None) -> SpanPlan:
-        """Return a plan of the span, with another method if one is named."""
-        span = before.span
-        matched, final = self._matched(before, after)
-        key = (id(before.drawing), id(after.drawing), method or span.method, span.turns, matched)
-        found = self._plans.get(key)
+        """Return a plan of the span, with another method if one is named.
+
+        While a slow one (rigid, auto, a repair) is being solved, it is intrinsic's, or that of the method without
+        the repair; `waiting` tells.
+        """
+        span = before.span if method is None else replace(before.span, method=method)
+        wanted = self._wanted_plan(before, after, span)
+        found = self._plans.get(wanted.key)
+        if found is None and self._is_quick(wanted):
+            found = self._keep_plan(wanted.solve())
+        if method is None and found is not None:
+            self._slow.pop(before.frame, None)
         if found is None:
-            parts = (before.drawing, after.drawing)  # kept, so that no other object can take their ids
-            changed = type(span)(method or span.method, span.easing, span.turns, span.pairs)
-            found = self._plans[key] = (parts, plan_span(*parts, changed, matched))
-        self._plans.move_to_end(key)
-        _forget(self._plans, MOST_KEPT if final else 8)
+            self._slow[wanted.before.frame] = wanted
+            self._pause.start()
+            quick = span.method if span.method in QUICK_METHODS else "intrinsic"
+            return self._stand_in(before, after, quick)
+        _touch(self._plans, wanted.key)
+        return found.plan
+
+    def waiting(self, before: Keyframe) -> bool:
+        """Whether what is shown of the span that begins here stands in for a plan that is being solved."""
+        return before.frame in self._slow
+
+    def _stand_in(self, before: Keyframe, after: Keyframe, method: str) -> SpanPlan:
+        wanted = self._wanted_plan(before, after, replace(before.span, method=method, repair=False))
+        found = self._plans.get(wanted.key) or self._keep_plan(wanted.solve())
+        _touch(self._plans, wanted.key)
+        return found.plan
+
+    def _wanted_plan(self, before: Keyframe, after: Keyframe, span: Span) -> "_PlanTask":
+        return _PlanTask(before, after, span, tuple(self._solved(task) for task in self._tasks(before, after)))
+
+    def _is_quick(self, wanted: "_PlanTask") -> bool:
+        """Whether a plan can be made between two frames of a drag: as the last one like it could."""
+        span = wanted.span
+        if span.repair:
+            return False
+        return span.method in QUICK_METHODS or self._seconds.get(wanted.likeness(), 1.0) < QUICK_SECONDS
+
+    def _keep_plan(self, made: "_Planned") -> "_Planned":
+        self._plans[made.task.key] = made
+        self._seconds[made.task.likeness()] = made.seconds
+        return made
+
+    def main_pair(self, before: Keyframe, after: Keyframe) -> tuple[Outline, Outline] | None:
+        """Return the pair of outlines that a person means by "the" correspondence: that of the longest outline."""
+        pairs = self._paired(before.drawing, after.drawing, before)
+        outlines = [(before.drawing.outline(i), after.drawing.outline(j)) for i, j in pairs]
+        return max(outlines, key=lambda ab: perimeter(ab[0].points, closed=ab[0].closed), default=None)
+
+    def correspondence(self, before: Keyframe, after: Keyframe, pair: tuple[int, int]) -> Correspondence:
+        """Return the correspondence of two outlines that the canvas shows now."""
+        for task in self._tasks(before, after):
+            if (task.before.id, task.after.id) == pair:
+                return self._solved(task).correspondence
+        raise KeyError(f"outlines {pair} are no pair")
+
+    def try_out(self, ref: PairRef | None, correspondence: Correspondence | None = None) -> None:
+        """Show the in-betweens of another correspondence for a while, or, without one, the real ones again."""
+        trial = (ref, correspondence) if ref is not None and correspondence is not None else None
+        if trial != self._trial:
+            self._trial = trial
+            self.planned.emit()
+
+    def with_answers(self, document: Document) -> Document:
+        """Return the document with every answer of the solver that is known stored in its spans.
+
+        A later version of the solver may answer differently; a film that was saved shall not change with it.
+        """
+        for layer in document.layers:
+            for before, after in pairwise(layer.keyframes):
+                for task in self._tasks(before, after):
+                    solved = self._exact.get(task.key())
+                    if task.kept is None and solved is not None:
+                        ids = task.before.id, task.after.id
+                        document = store_answer(document, layer.id, before.frame, *ids, solved.correspondence)
+        return document
+
+    def _tasks(self, before: Keyframe, after: Keyframe) -> list[_Task]:
+        tasks = []
+        for i, j in self._paired(before.drawing, after.drawing, before):
+            made = before.span.pair_of(i, j)
+            kept = made.correspondence if made else None
+            if self._trial is not None and self._trial[0] == (before.frame, i, j):
+                kept = self._trial[1]
+            a, b = before.drawing.outline(i), after.drawing.outline(j)
+            tasks.append(_Task(a, b, made.held if made else (), (before.frame, after.frame), kept))
+        return tasks
+
+    def _paired(self, before: Drawing, after: Drawing, keyframe: Keyframe) -> Pairs:
+        key = (id(before), id(after), tuple((p.before, p.after) for p in keyframe.span.pairs))
+        found = self._pairs.get(key)
+        if found is None:
+            found = self._pairs[key] = ((before, after), paired_outlines(before, after, keyframe.span))
+        _touch(self._pairs, key)
         return found[1]
 
-    def _matched(self, before: Keyframe, after: Keyframe) -> tuple[SpanMatch, bool]:
-        pairs = []
-        self._wanted.clear()
-        for i, j in paired_outlines(before.drawing, after.drawing, before.span):
-            made = before.span.pair_of(i, j)
-            a, b = before.drawing.outline(i), after.drawing.outline(j)
-            if made is not None and made.correspondence is not None:
-                pairs.append(PairMatch(i, j, made.correspondence))
-            else:
-                task = _Task(a, b, made.anchors if made else ())
-                pairs.append(PairMatch(i, j, self._correspondence(task)))
-        if self._wanted:
-            self._pause.start()
-        return SpanMatch(tuple(pairs)), not self._wanted
-
-    def _correspondence(self, task: _Task) -> Correspondence:
-        found = self._exact.get(task.key())
-        if found is not None:
-            self._exact.move_to_end(task.key())
-            return found.correspondence
+    def _solved(self, task: _Task) -> _Solved:
+        """Return the exact answer, or else the last one for outlines alike, and ask the worker for the exact."""
+        exact = self._exact.get(task.key())
+        if exact is not None:
+            _touch(self._exact, task.key())
+            return exact
         alike = self._alike.get(task.likeness())
-        if alike is not None:
-            self._wanted[task.key()] = task
-            return alike
-        solved = task.solve()
-        self._keep(_Solved(task, solved))
-        return solved
+        if task.kept is not None:
+            return self._keep_exact(_Solved(task, task.kept, self._kept_rows(task, alike)))
+        waiting = self._wanted.get(task.likeness())
+        if waiting is None or waiting.key() != task.key():
+            self._wanted[task.likeness()] = task  # of two steps of one drag only the last is worth solving
+            self._pause.start()
+        if alike is not None and alike.task.anchors == task.anchors:
+            return self._thinner(alike, task)
+        quick = task.solve_quickly(alike.correspondence if alike else None)
+        return self._keep_alike(_Solved(task, quick, task.rows(quick)))
 
-    def _keep(self, solved: _Solved) -> None:
+    def _thinner(self, alike: _Solved, task: _Task) -> _Solved:
+        """Leave out, while a huge outline is dragged, the images of the other one's vertices: nobody sees them."""
+        p, q = alike.rows
+        if len(p) <= MOST_DRAGGED_ROWS:
+            return alike
+        before_moves = task.before is not alike.task.before
+        if self._coarse is None or self._coarse[:2] != (alike, before_moves):
+            moved = p if before_moves else q
+            own = moved == np.floor(moved)
+            self._coarse = alike, before_moves, replace(alike, rows=(p[own], q[own]))
+        return self._coarse[2]
+
+    def _kept_rows(self, task: _Task, alike: _Solved | None) -> Rows:
+        """Walk along both outlines only when the correspondence is a new one."""
+        if alike is not None and alike.correspondence is task.kept:
+            return alike.rows
+        return task.rows(task.solve())
+
+    def _keep_exact(self, solved: _Solved) -> _Solved:
         self._exact[solved.task.key()] = solved
-        self._alike[solved.task.likeness()] = solved.correspondence
-        self._alike.move_to_end(solved.task.likeness())
-        _forget(self._exact, MOST_KEPT)
-        _forget(self._alike, MOST_KEPT)
+        _touch(self._exact, solved.task.key())
+        return self._keep_alike(solved)
+
+    def _keep_alike(self, solved: _Solved) -> _Solved:
+        self._alike[solved.task.likeness()] = solved
+        _touch(self._alike, solved.task.likeness())
+        return solved
 
     def _on_paused(self) -> None:
         tasks = tuple(self._wanted.values())
         if tasks:
             self._worker.submit(lambda: _solve(tasks))
+        elif self._slow:
+            self._cancel.set()  # of what is solved now, the span has changed since
+            self._cancel = cancel = threading.Event()
+            wanted = tuple(self._slow.values())
+            self._planner.submit(lambda: _plan(wanted, self.progressed.emit, cancel.is_set))
+
+    def cancel_slow(self) -> None:
+        """Stop solving; what stands in stays until something changes."""
+        self._cancel.set()
 
     def _on_solved(self, result: object) -> None:
         if isinstance(result, Exception):
             raise result
         if isinstance(result, list):
             for solved in result:
-                self._keep(solved)
-                self._wanted.pop(solved.task.key(), None)
+                self._keep_exact(solved)
+                waiting = self._wanted.get(solved.task.likeness())
+                if waiting is not None and waiting.key() == solved.task.key():
+                    del self._wanted[solved.task.likeness()]
             self.planned.emit()
+            if self._slow:
+                self._pause.start()
+
+    def _on_planned(self, result: object) -> None:
+        if isinstance(result, Exception):
+            raise result
+        if isinstance(result, list):
+            for made in result:
+                self._keep_plan(made)
+                _touch(self._plans, made.task.key)
+                waiting = self._slow.get(made.task.before.frame)
+                if waiting is not None and waiting.key == made.task.key:
+                    del self._slow[made.task.before.frame]
+            self.planned.emit()
+
+
+def _plan(wanted: tuple["_PlanTask", ...], progress: Progress, cancelled: Callable[[], bool]) -> list["_Planned"]:
+    made = []
+    for task in wanted:
+        try:
+            made.append(task.solve(progress, cancelled))
+        except CancelledError:
+            break
+    return made
 
 
 def _solve(tasks: tuple[_Task, ...]) -> list[_Solved]:
     found = []
     for task in tasks:
         try:
-            found.append(_Solved(task, task.solve()))
+            correspondence = task.solve()
         except InkbetweenError:
-            continue  # refused drawings never reach a document; the last good plan stays
+            correspondence = task.solve_quickly(None)
+        found.append(_Solved(task, correspondence, task.rows(correspondence)))
     return found
 
 
-def _forget(kept: OrderedDict[object, object] | OrderedDict, most: int) -> None:  # type: ignore[type-arg]
-    while len(kept) > most:
+def _touch(kept: OrderedDict, key: object) -> None:  # type: ignore[type-arg]
+    """Mark as used last, and forget what was not used for the longest time."""
+    kept.move_to_end(key)
+    while len(kept) > MOST_KEPT:
         kept.popitem(last=False)

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import linear_sum_assignment
 
 from core.correspondence.ring import ring
 from core.errors import CorrespondenceError
@@ -77,6 +76,9 @@ def pair_outlines(
         costs[i, :], costs[:, j] = NEVER, NEVER
     for i, j in fixed:
         costs[i, j] = -NEVER
+    # imported late: it takes longer than all the rest of the package, and one outline needs no pairing
+    from scipy.optimize import linear_sum_assignment
+
     rows, columns = linear_sum_assignment(costs) if costs.size else (np.zeros(0, int), np.zeros(0, int))
     pairs = tuple((int(i), int(j)) for i, j in zip(rows, columns, strict=True) if costs[i, j] < NEVER)
     left, right = {i for i, _ in pairs}, {j for _, j in pairs}

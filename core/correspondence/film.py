@@ -16,6 +16,9 @@ MOMENTS = np.arange(1, 8) / 8
 CROSSING = 0.25
 SWELLING = 0.1
 
+MOST_PAIRS = 2_000_000
+"""Pairs of edges beyond which a film is not searched for crossings: a comb of thousands of teeth has them."""
+
 FLAT = 1e-6
 """Area, in squared radii, below which an outline has none."""
 
@@ -25,8 +28,8 @@ def film_factor(z: ComplexArray, y: ComplexArray) -> float:
     frames = sketches(z, y, MOMENTS)
     crosses = bool(crossing(frames).any()) and not bool(crossing(np.stack([z, y])).any())
     areas, (low, high) = np.abs(_areas(frames)), sorted(np.abs(_areas(np.stack([z, y]))))
-    swelling = max(0.0, float(areas.max() / max(high, FLAT)) - 1, 1 - float(areas.min() / max(low, FLAT)))
-    return (1 + CROSSING * crosses) * (1 + SWELLING * min(1.0, swelling))
+    swelling = max(0.0, (areas.max() - high) / max(high, FLAT), (low - areas.min()) / max(low, FLAT))
+    return float(1 + CROSSING * crosses) * (1 + SWELLING * min(1.0, float(swelling)))
 
 
 def sketches(z: ComplexArray, y: ComplexArray, t: FloatArray) -> ComplexArray:
@@ -61,23 +64,32 @@ def crossing(z: ComplexArray) -> npt.NDArray[np.bool_]:
 
 def _crosses(p: ComplexArray, q: ComplexArray) -> bool:
     """Whether any two of the segments from `p` to `q` cross; those whose boxes are apart are not compared."""
-    i, j = _overlapping(p.real, q.real)
-    low, high = np.minimum(p.imag, q.imag), np.maximum(p.imag, q.imag)
-    near = (low[i] <= high[j]) & (low[j] <= high[i])
-    i, j = i[near], j[near]
+    swept = min((_Overlaps(x, y) for x, y in ((p.real, q.real), (p.imag, q.imag))), key=lambda o: o.count)
+    if swept.count > MOST_PAIRS:
+        return False
+    i, j = swept.pairs()
+    for x, y in ((p.real, q.real), (p.imag, q.imag)):
+        low, high = np.minimum(x, y), np.maximum(x, y)
+        near = (low[i] <= high[j]) & (low[j] <= high[i])
+        i, j = i[near], j[near]
     return bool((_astride(p[i], q[i], p[j], q[j]) & _astride(p[j], q[j], p[i], q[i])).any())
 
 
-def _overlapping(p: FloatArray, q: FloatArray) -> tuple[IntArray, IntArray]:
-    """Pairs of intervals from `p` to `q` that overlap, each pair once."""
-    low, high = np.minimum(p, q), np.maximum(p, q)
-    order = np.argsort(low, kind="stable")
-    last = np.searchsorted(low[order], high[order], side="right")
-    first = np.arange(1, len(p) + 1)
-    counts = np.maximum(last - first, 0)
-    begin = np.cumsum(counts) - counts
-    later = np.arange(counts.sum()) - np.repeat(begin - first, counts)
-    return order[np.repeat(first - 1, counts)], order[later]
+class _Overlaps:
+    """Pairs of intervals that overlap, found by sorting their lower ends; counted before they are listed."""
+
+    def __init__(self, p: FloatArray, q: FloatArray) -> None:
+        low, high = np.minimum(p, q), np.maximum(p, q)
+        self.order = np.argsort(low, kind="stable")
+        self.next = np.arange(1, len(p) + 1)
+        end = np.searchsorted(low[self.order], high[self.order], side="right")
+        self.counts = np.maximum(end - self.next, 0)
+        self.count = int(self.counts.sum())
+
+    def pairs(self) -> tuple[IntArray, IntArray]:
+        begin = np.cumsum(self.counts) - self.counts
+        later = np.arange(self.count) - np.repeat(begin - self.next, self.counts)
+        return self.order[np.repeat(self.next - 1, self.counts)], self.order[later]
 
 
 def _astride(p: ComplexArray, q: ComplexArray, r: ComplexArray, s: ComplexArray) -> npt.NDArray[np.bool_]:

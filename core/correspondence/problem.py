@@ -69,10 +69,16 @@ def _flipped_by_area(a: FloatArray, b: FloatArray) -> bool | None:
 
 def _problem(a: FloatArray, b: FloatArray, pairs: FloatArray, flipped: bool, closed: bool) -> Problem:
     backwards = _drawn_backwards(a, closed)
-    before = ring(a, closed=closed, backwards=backwards)
-    after = ring(b, closed=closed, backwards=backwards != flipped)
-    swapped = shape_key(before) > shape_key(after)
-    first, second = turned_together(*((after, before) if swapped else (before, after)))
+    sides = [(a, backwards), (b, backwards != flipped)]
+    rings = [ring(p, closed=closed, backwards=back) for p, back in sides]
+    swapped = shape_key(rings[0]) > shape_key(rings[1])
+    if swapped:
+        sides, rings = sides[::-1], rings[::-1]
+    # the start of a symmetric shape is chosen by the other's, so that they change together or not at all
+    for k in range(2):
+        points, back = sides[k]
+        rings[k] = ring(points, closed=closed, backwards=back, towards=complex(rings[1 - k].z[0]))
+    first, second = turned_together(rings[0], rings[1])
     if not closed:
         pairs = pairs[(pairs[:, 0] > 0) & (pairs[:, 0] < len(a) - 1)]
     columns = pairs[:, ::-1] if swapped else pairs

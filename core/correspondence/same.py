@@ -17,6 +17,9 @@ SAME = 0.002
 
 ROUNDS = 3
 
+MOST_PAIRS = 1_000_000
+"""Pairs of point and edge that are measured; the windows round the points shrink to it."""
+
 SAME_VERTEX = 1e-7
 """Distance (in radii) of two vertices that are one."""
 
@@ -169,7 +172,7 @@ def _closed_up(u: FloatArray, v: FloatArray, knots: Knots) -> Track:
 def _nearest(r: Ring, points: ComplexArray, shares: FloatArray) -> FloatArray:
     """Shares of the points of a ring nearest to `points`, looked for round `shares` and unrolled as they are."""
     edges = len(r.shares) - 1
-    reach = min(8 + edges // 50, edges)
+    reach = min(8 + edges // 50, edges, max(8, MOST_PAIRS // len(points)))
     s = np.mod(shares, 1.0) if r.closed else shares
     here = np.searchsorted(r.shares, s, side="right") - 1
     k = here[:, None] + np.arange(-reach, reach + 1)

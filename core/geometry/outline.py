@@ -111,13 +111,16 @@ def points_at(points: FloatArray, positions: npt.ArrayLike, *, closed: bool = Tr
     """
     n = len(points)
     s = np.asarray(positions, dtype=np.float64)
-    s = np.mod(s, n) if closed else np.clip(s, 0, n - 1)
-    i = np.floor(s).astype(np.intp)
+    if s.size and not (s.min() >= 0 and s.max() < n):
+        s = np.mod(s, n) if closed else np.clip(s, 0, n - 1)
+    i = s.astype(np.intp)
     f = s - i
-    i %= n  # mod of a tiny negative number rounds up to n itself
-    j = (i + 1) % n if closed else np.minimum(i + 1, n - 1)
+    if closed:
+        i[i == n] = 0  # mod of a tiny negative number rounds up to n itself
+    ahead = np.concatenate([points[1:], points[:1] if closed else points[-1:]])
+    start, end = points.take(i, axis=0), ahead.take(i, axis=0)
     f = f[..., None]
-    return np.where(f == 0, points[i], points[i] * (1 - f) + points[j] * f)
+    return start * (1 - f) + end * f
 
 
 def positions_at_lengths(points: FloatArray, lengths: npt.ArrayLike, *, closed: bool = True) -> FloatArray:

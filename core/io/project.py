@@ -4,10 +4,11 @@ What each field means is in docs/file-format.md. The structs here are the file; 
 document. They are kept apart so that either can change without the other.
 """
 
+import contextlib
 import itertools
 import os
+import stat
 import tempfile
-from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Final, Literal
@@ -17,8 +18,19 @@ import numpy as np
 
 from core.correspondence.pairing import Correspondence, ordered_anchors
 from core.errors import FileFormatError, InkbetweenError, StorageError
-from core.model.document import Anchor, Document, Keyframe, Layer, OutlinePair, Span, Stage
-from core.model.drawing import Drawing, Outline, Style
+from core.model.document import (
+    LONGEST_NAME,
+    LONGEST_PATH,
+    Anchor,
+    Document,
+    Keyframe,
+    Layer,
+    OutlinePair,
+    Reference,
+    Span,
+    Stage,
+)
+from core.model.drawing import LARGEST_ID, Drawing, Outline, Style
 from core.model.easing import Easing
 
 FORMAT: Final = "inkbetween"
@@ -28,7 +40,8 @@ LARGEST_FILE = 512 * 1024 * 1024
 
 Number = float
 Point = tuple[Number, Number]
-Id = Annotated[int, msgspec.Meta(ge=1, le=2**31 - 1)]
+Id = Annotated[int, msgspec.Meta(ge=1, le=LARGEST_ID)]
+Count = Annotated[int, msgspec.Meta(ge=2, le=LARGEST_ID)]
 
 
 class _Struct(msgspec.Struct, forbid_unknown_fields=True):
@@ -38,7 +51,7 @@ class _Struct(msgspec.Struct, forbid_unknown_fields=True):
 class _Correspondence(_Struct):
     before: Annotated[list[Number], msgspec.Meta(min_length=1)]
     after: Annotated[list[Number], msgspec.Meta(min_length=1)]
-    counts: tuple[int, int]
+    counts: tuple[Count, Count]
     closed: bool
     flipped: bool
 
@@ -47,14 +60,17 @@ class _Pair(_Struct, omit_defaults=True):
     before: Id
     after: Id
     anchors: list[Point] = []
+    muted: list[int] = []
     correspondence: _Correspondence | None = None
+    chosen: bool = False
 
 
-class _Span(_Struct):
+class _Span(_Struct, omit_defaults=True):
     method: str
     easing: tuple[Number, Number, Number, Number]
     turns: int
     pairs: list[_Pair]
+    repair: bool = False
 
 
 class _Outline(_Struct):
@@ -74,15 +90,21 @@ class _Drawing(_Struct):
     outlines: list[_Outline]
 
 
-class _Keyframe(_Struct):
+class _Reference(_Struct):
+    path: Annotated[str, msgspec.Meta(min_length=1, max_length=LONGEST_PATH)]
+    opacity: Number
+
+
+class _Keyframe(_Struct, omit_defaults=True):
     frame: int
     drawing: _Drawing
     span: _Span
+    reference: _Reference | None = None
 
 
 class _Layer(_Struct):
     id: Id
-    name: Annotated[str, msgspec.Meta(max_length=1000)]
+    name: Annotated[str, msgspec.Meta(max_length=LONGEST_NAME)]
     visible: bool
     keyframes: list[_Keyframe]
 
@@ -121,7 +143,10 @@ def load(path: str | os.PathLike[str]) -> Document:
     """
     file = Path(path)
     try:
-        if file.stat().st_size > LARGEST_FILE:
+        status = file.stat()
+        if not stat.S_ISREG(status.st_mode):
+            raise StorageError(f"cannot read {file}: it is no file")  # a device might never end
+        if status.st_size > LARGEST_FILE:
             raise FileFormatError(f"{file.name} is larger than {LARGEST_FILE // 2**20} MB: no project of ours")
         content = file.read_bytes()
     except OSError as e:
@@ -148,22 +173,25 @@ def save(document: Document, path: str | os.PathLike[str]) -> None:
 
 def write_atomically(path: Path, content: bytes) -> None:
     """Put `content` into `path` in one step; raises StorageError and leaves the old file if it cannot."""
-    target = path.resolve()  # a link stays a link, its target is replaced
-    temporary = ""
+    temporary: Path | None = None
     try:
+        target = path.resolve()  # a link stays a link, its target is replaced
         mode = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()
-        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:100]}.", suffix=".part")
+        handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:50]}.", suffix=".part")
+        temporary = Path(name)
         with os.fdopen(handle, "wb") as file:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
         os.chmod(temporary, mode)
         os.replace(temporary, target)
-        _sync_folder(target.parent)
-    except OSError as e:
-        if temporary:
-            Path(temporary).unlink(missing_ok=True)
+    except (OSError, RuntimeError) as e:  # RuntimeError: a loop of links, before Python 3.13
         raise StorageError(f"cannot write {path}: {_reason(e)}") from e
+    finally:
+        if temporary is not None:
+            with contextlib.suppress(OSError):
+                temporary.unlink(missing_ok=True)
+    _sync_folder(target.parent)
 
 
 def _umask() -> int:
@@ -173,18 +201,19 @@ def _umask() -> int:
 
 
 def _sync_folder(folder: Path) -> None:
-    """Make the renaming itself survive a power cut, where the system can."""
+    """Make the renaming itself survive a power cut, where the system can; the file is whole either way."""
     if os.name != "posix":
         return
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)
+    with contextlib.suppress(OSError):
+        handle = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
 
 
-def _reason(error: OSError) -> str:
-    return (error.strerror or str(error)).lower()
+def _reason(error: OSError | RuntimeError) -> str:
+    return (getattr(error, "strerror", None) or str(error)).lower()
 
 
 def encode(document: Document) -> bytes:
@@ -215,28 +244,31 @@ def decode(content: bytes) -> Document:
 
 
 def _to_file(document: Document) -> _Project:
-    stage = _Stage(document.stage.width, document.stage.height, document.stage.background)
+    """Every number as a plain one: equal documents give equal bytes, and the writer knows no NumPy scalars."""
+    stage = _Stage(int(document.stage.width), int(document.stage.height), document.stage.background)
     layers = [
-        _Layer(layer.id, layer.name, layer.visible, [_keyframe_to_file(k) for k in layer.keyframes])
+        _Layer(int(layer.id), layer.name, bool(layer.visible), [_keyframe_to_file(k) for k in layer.keyframes])
         for layer in document.layers
     ]
-    rate = (document.rate.numerator, document.rate.denominator)
-    return _Project(FORMAT, VERSION, stage, rate, document.length, layers)
+    rate = (int(document.rate.numerator), int(document.rate.denominator))
+    return _Project(FORMAT, VERSION, stage, rate, int(document.length), layers)
 
 
 def _keyframe_to_file(keyframe: Keyframe) -> _Keyframe:
     drawing, style, span = keyframe.drawing, keyframe.drawing.style, keyframe.span
-    outlines = [_Outline(o.id, o.closed, o.points.tolist()) for o in drawing.outlines]
+    outlines = [_Outline(int(o.id), bool(o.closed), o.points.tolist()) for o in drawing.outlines]
     easing = span.easing
     return _Keyframe(
-        keyframe.frame,
-        _Drawing(_Style(style.fill, style.stroke, style.width), outlines),
+        int(keyframe.frame),
+        _Drawing(_Style(style.fill, style.stroke, float(style.width)), outlines),
         _Span(
             span.method,
-            (easing.x1, easing.y1, easing.x2, easing.y2),
-            span.turns,
+            (float(easing.x1), float(easing.y1), float(easing.x2), float(easing.y2)),
+            int(span.turns),
             [_pair_to_file(p) for p in span.pairs],
+            bool(span.repair),
         ),
+        _Reference(keyframe.reference.path, float(keyframe.reference.opacity)) if keyframe.reference else None,
     )
 
 
@@ -244,8 +276,11 @@ def _pair_to_file(pair: OutlinePair) -> _Pair:
     c = pair.correspondence
     kept = None
     if c is not None:
-        kept = _Correspondence(c.before.tolist(), c.after.tolist(), c.counts, c.closed, c.flipped)
-    return _Pair(pair.before, pair.after, [(x.before, x.after) for x in pair.anchors], kept)
+        counts = (int(c.counts[0]), int(c.counts[1]))
+        kept = _Correspondence(c.before.tolist(), c.after.tolist(), counts, bool(c.closed), bool(c.flipped))
+    anchors = [(float(x.before), float(x.after)) for x in pair.anchors]
+    muted = [i for i, x in enumerate(pair.anchors) if x.muted]
+    return _Pair(int(pair.before), int(pair.after), anchors, muted, kept, bool(pair.chosen))
 
 
 def _from_file(project: _Project) -> Document:
@@ -278,9 +313,13 @@ def _keyframe_from_file(keyframe: _Keyframe, where: str) -> Keyframe:
         drawing = Drawing(tuple(outlines), Style(style.fill, style.stroke, style.width))
     pairs = [_pair_from_file(p, f"{where}.span.pairs[{i}]") for i, p in enumerate(keyframe.span.pairs)]
     with _place(f"{where}.span"):
-        span = Span(keyframe.span.method, Easing(*keyframe.span.easing), keyframe.span.turns, tuple(pairs))
+        s = keyframe.span
+        span = Span(s.method, Easing(*s.easing), s.turns, tuple(pairs), s.repair)
+    with _place(f"{where}.reference"):
+        kept = keyframe.reference
+        reference = Reference(kept.path, kept.opacity) if kept else None
     with _place(where):
-        return Keyframe(keyframe.frame, drawing, span)
+        return Keyframe(keyframe.frame, drawing, span, reference)
 
 
 def _pair_from_file(pair: _Pair, where: str) -> OutlinePair:
@@ -289,7 +328,10 @@ def _pair_from_file(pair: _Pair, where: str) -> OutlinePair:
         kept = None
         if c is not None:
             kept = Correspondence(np.array(c.before), np.array(c.after), c.counts, c.closed, c.flipped)
-        return OutlinePair(pair.before, pair.after, _anchors(pair.anchors), kept)
+        if any(not 0 <= i < len(pair.anchors) for i in pair.muted):
+            raise FileFormatError(f"there are {len(pair.anchors)} anchors; muted are {pair.muted}")
+        anchors = tuple(Anchor(*p, i in pair.muted) for i, p in enumerate(pair.anchors))
+        return OutlinePair(pair.before, pair.after, anchors, kept, pair.chosen)
 
 
 def _check_pairs(layer: Layer, where: str) -> None:
@@ -303,14 +345,10 @@ def _check_pairs(layer: Layer, where: str) -> None:
                 counts = (len(a.points), len(b.points))
                 if a.closed != b.closed:
                     raise FileFormatError("a closed outline is paired with an open one")
-                ordered_anchors(pair.anchors, counts, closed=a.closed)
+                ordered_anchors(pair.held, counts, closed=a.closed)
                 c = pair.correspondence
                 if c is not None and (c.counts, c.closed) != (counts, a.closed):
                     raise FileFormatError(f"a correspondence of {c.counts} vertices for outlines with {counts}")
-
-
-def _anchors(points: Sequence[Point]) -> tuple[Anchor, ...]:
-    return tuple(Anchor(*p) for p in points)
 
 
 class _place:

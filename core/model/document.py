@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import re
 from bisect import bisect_right
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -10,20 +11,58 @@ from typing import NamedTuple
 from core.correspondence.pairing import Correspondence
 from core.errors import DocumentError
 from core.methods.plan import METHODS
-from core.model.drawing import Color, Drawing, as_color
+from core.model.drawing import Color, Drawing, as_color, check_id
 from core.model.easing import Easing
+from core.model.solving import AUTO
 
 LARGEST_STAGE = 16_384
 LONGEST = 100_000
 FASTEST = 1000
 MOST_TURNS = 100
+LONGEST_NAME = 1000
+LONGEST_PATH = 4096
+FINEST_RATE = 2**31 - 1
+"""Largest upper or lower number of a frame rate."""
+
+RATE_PATTERN = re.compile(r"\d{1,12}(\.\d{0,12})?|\.\d{1,12}|\d{1,12}\s*/\s*\d{1,12}", re.ASCII)
 
 
 class Anchor(NamedTuple):
-    """One pair of points fixed by the artist: positions on the outlines before and after."""
+    """One pair of points fixed by the artist: positions on the outlines before and after.
+
+    A muted one is kept without effect, so that one can see what it does.
+    """
 
     before: float
     after: float
+    muted: bool = False
+
+    @property
+    def places(self) -> tuple[float, float]:
+        """The two positions."""
+        return self.before, self.after
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """A picture laid under the stage while one draws; it is never exported.
+
+    Attributes
+    ----------
+    path : str
+        The picture file.
+    opacity : float
+        0 to 1.
+    """
+
+    path: str
+    opacity: float = 0.5
+
+    def __post_init__(self) -> None:
+        if not self.path or len(self.path) > LONGEST_PATH:
+            raise DocumentError(f"a path of {len(self.path)} characters; it must have 1 to {LONGEST_PATH}")
+        if not 0 <= self.opacity <= 1:
+            raise DocumentError(f"the opacity of a reference picture is {self.opacity}; it must be 0 to 1")
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,12 +77,26 @@ class OutlinePair:
         In the order they were made.
     correspondence : Correspondence or None
         A correspondence that is kept as it is; None: solved when needed.
+    chosen : bool
+        The artist chose the correspondence: it stays while vertices move. Otherwise it is an answer that was
+        solved and stored, and is given up as soon as it may be another.
     """
 
     before: int
     after: int
     anchors: tuple[Anchor, ...] = ()
     correspondence: Correspondence | None = None
+    chosen: bool = False
+
+    @property
+    def held(self) -> tuple[tuple[float, float], ...]:
+        """The places of the anchors that are in effect."""
+        return tuple(x.places for x in self.anchors if not x.muted)
+
+    def __post_init__(self) -> None:
+        for anchor in self.anchors:
+            if not (math.isfinite(anchor.before) and math.isfinite(anchor.after)):
+                raise DocumentError(f"an anchor of outlines {self.before} and {self.after} is not a finite number")
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,23 +106,26 @@ class Span:
     Attributes
     ----------
     method : str
-        How vertices travel; one of `core.METHODS`.
+        How vertices travel; one of `core.METHODS`, or "auto": the better one of rigid and intrinsic.
     easing : Easing
     turns : int
         Extra whole turns, clockwise on the stage when positive.
+    repair : bool
+        Whether crossings of the in-betweens are bent away.
     pairs : tuple of OutlinePair
         Only what the artist fixed; the other outlines are paired automatically. Pairs whose outlines are gone
         are ignored.
     """
 
-    method: str = "intrinsic"
+    method: str = AUTO
     easing: Easing = field(default_factory=Easing)
     turns: int = 0
     pairs: tuple[OutlinePair, ...] = ()
+    repair: bool = False
 
     def __post_init__(self) -> None:
-        if self.method not in METHODS:
-            raise DocumentError(f"unknown method {self.method!r}; known are {', '.join(METHODS)}")
+        if self.method not in (*METHODS, AUTO):
+            raise DocumentError(f"unknown method {self.method!r}; known are {', '.join((*METHODS, AUTO))}")
         if abs(self.turns) > MOST_TURNS:
             raise DocumentError(f"{self.turns} extra turns; the limit is {MOST_TURNS}")
         for side in ("before", "after"):
@@ -93,11 +149,14 @@ class Keyframe:
     drawing : Drawing
     span : Span
         To the next keyframe; without effect on the last one, yet kept, so that nothing is lost when keys move.
+    reference : Reference or None
+        Laid under the stage while this keyframe is drawn.
     """
 
     frame: int
     drawing: Drawing = field(default_factory=Drawing)
     span: Span = field(default_factory=Span)
+    reference: Reference | None = None
 
     def __post_init__(self) -> None:
         if not 1 <= self.frame <= LONGEST:
@@ -124,6 +183,11 @@ class Layer:
     keyframes: tuple[Keyframe, ...] = ()
 
     def __post_init__(self) -> None:
+        check_id(self.id, name="a layer")
+        if len(self.name) > LONGEST_NAME:
+            raise DocumentError(f"the layer's name has {len(self.name)} characters; the limit is {LONGEST_NAME}")
+        if any(0xD800 <= ord(c) <= 0xDFFF for c in self.name):
+            raise DocumentError("the layer's name has half a character in it, which no file can hold")
         frames = self.frames()
         for earlier, later in itertools.pairwise(frames):
             if later <= earlier:
@@ -191,6 +255,8 @@ class Document:
     def __post_init__(self) -> None:
         if not 0 < self.rate <= FASTEST:
             raise DocumentError(f"the frame rate is {self.rate}; it must be above 0 and at most {FASTEST}")
+        if max(self.rate.numerator, self.rate.denominator) > FINEST_RATE:
+            raise DocumentError(f"the frame rate is {self.rate}; its two numbers must be at most {FINEST_RATE}")
         if not 1 <= self.length <= LONGEST:
             raise DocumentError(f"the film has {self.length} frames; it must have 1 to {LONGEST}")
         if not self.layers:
@@ -220,10 +286,13 @@ def ratio_in_span(before: Keyframe, after: Keyframe, frame: float) -> float:
 
 def as_rate(text: str) -> Fraction:
     """Return a frame rate from "24", "23.976" or "24000/1001"; raises DocumentError with one sentence."""
+    wrong = f"{text[:40]!r} is no frame rate; write 24, 29.97 or 30000/1001"
+    if not RATE_PATTERN.fullmatch(text.strip()):  # an exponent could ask for a number that fills the memory
+        raise DocumentError(wrong)
     try:
-        rate = Fraction(text.strip())
-    except (ValueError, ZeroDivisionError):
-        raise DocumentError(f"{text!r} is no frame rate; write 24, 29.97 or 30000/1001") from None
-    if not 0 < rate <= FASTEST or not math.isfinite(rate):
-        raise DocumentError(f"the frame rate is {text}; it must be above 0 and at most {FASTEST}")
-    return rate.limit_denominator(100_000)
+        rate = Fraction("".join(text.split())).limit_denominator(100_000)
+    except ZeroDivisionError:
+        raise DocumentError(wrong) from None
+    if not 0 < rate <= FASTEST:
+        raise DocumentError(f"the frame rate is {text.strip()}; it must be above 0 and at most {FASTEST}")
+    return rate

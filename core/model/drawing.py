@@ -15,6 +15,14 @@ COLOR_PATTERN = re.compile(r"#[0-9a-f]{6}([0-9a-f]{2})?")
 
 WIDEST_STROKE = 10_000.0
 
+LARGEST_ID = 2**31 - 1
+
+
+def check_id(number: int, *, name: str) -> None:
+    """Raise DocumentError unless `number` can name something in a file: 1 to 2**31 - 1."""
+    if not 1 <= number <= LARGEST_ID:
+        raise DocumentError(f"{name} has the id {number}; ids run from 1 to {LARGEST_ID}")
+
 
 def as_color(color: str, *, name: str = "color") -> Color:
     """Return `color` in lower case, or raise DocumentError if it is not #rrggbb or #rrggbbaa."""
@@ -67,6 +75,7 @@ class Outline:
     closed: bool = True
 
     def __post_init__(self) -> None:
+        check_id(self.id, name="an outline")
         points = as_points(self.points, name=f"outline {self.id}", closed=self.closed)
         if points.flags.writeable or points.base is not None:
             points = points.copy()

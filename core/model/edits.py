@@ -4,6 +4,7 @@ An edit that changes nothing returns the very same document. Where vertices are 
 of the spans on both sides stay at their places on the outline.
 """
 
+import itertools
 from bisect import insort
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
@@ -12,14 +13,56 @@ from fractions import Fraction
 import numpy as np
 import numpy.typing as npt
 
-from core.correspondence.pairing import ordered_anchors
-from core.errors import CorrespondenceError, DocumentError
-from core.geometry.outline import FloatArray, lengths_at, points_at
-from core.model.document import Anchor, Document, Keyframe, Layer, OutlinePair, Span, Stage
+from core.errors import DocumentError
+from core.geometry.outline import FloatArray, points_at
+from core.model.document import Document, Keyframe, Layer, OutlinePair, Reference, Span, Stage
 from core.model.drawing import Drawing, Outline, Style
 from core.model.easing import Easing
+from core.model.pair_edits import (
+    add_anchor,
+    choose_correspondence,
+    clear_anchors,
+    delete_anchor,
+    move_anchor,
+    pair_outlines_by_hand,
+    set_muted,
+    solve_again,
+    store_answer,
+)
+from core.model.parts import keyframe_of, with_keyframe
+from core.model.positions import Positions, after_deletion, after_insertion, holding, same_build
 
-Positions = Callable[[float], float]
+Mine = Callable[[OutlinePair], int]
+"""The side of a pair that an edit is about: its outline before or its outline after."""
+
+__all__ = [
+    "add_anchor",
+    "add_outline",
+    "choose_correspondence",
+    "clear_anchors",
+    "delete_anchor",
+    "delete_keyframe",
+    "delete_outline",
+    "delete_vertices",
+    "insert_vertex",
+    "move_anchor",
+    "move_keyframe",
+    "move_vertices",
+    "pair_outlines_by_hand",
+    "put_drawing",
+    "set_layer",
+    "set_length",
+    "set_muted",
+    "set_rate",
+    "set_reference",
+    "set_span",
+    "set_stage",
+    "set_style",
+    "solve_again",
+    "store_answer",
+]
+
+NOT_MOVED: Mapping[int, int] = {}
 
 
 def set_stage(document: Document, stage: Stage) -> Document:
@@ -53,14 +96,17 @@ def set_layer(
 def put_drawing(document: Document, layer_id: int, frame: int, drawing: Drawing) -> Document:
     """Make `drawing` the keyframe at `frame`, new or in place of the one that is there.
 
-    A new keyframe inside a span takes its method and easing; a film that is too short grows to the frame.
+    A new keyframe inside a span takes its method and easing; a film that is too short grows to the frame. Where
+    an outline is gone or has another number of vertices, the anchors on it go with it.
     """
     layer = document.layer(layer_id)
     old = layer.keyframe_at(frame)
     if old is not None:
         if old.drawing == drawing:
             return document
-        return _with_keyframe(document, layer, replace(old, drawing=drawing))
+        document = with_keyframe(document, layer, replace(old, drawing=drawing))
+        lost = {o.id for o in old.drawing.outlines if not same_build(o, drawing)}
+        return _in_both_spans(document, layer_id, frame, lambda pair, mine: None if mine(pair) in lost else pair)
     earlier = [k for k in layer.keyframes if k.frame < frame]
     neighbour = earlier[-1] if earlier else (layer.keyframes[0] if layer.keyframes else None)
     span = replace(neighbour.span, pairs=(), turns=0) if neighbour else Span()
@@ -73,21 +119,21 @@ def put_drawing(document: Document, layer_id: int, frame: int, drawing: Drawing)
 def delete_keyframe(document: Document, layer_id: int, frame: int) -> Document:
     """Take a keyframe away; the spans on both sides become one."""
     layer = document.layer(layer_id)
-    _keyframe(layer, frame)
+    keyframe_of(layer, frame)
     return _with_keyframes(document, layer, [k for k in layer.keyframes if k.frame != frame])
 
 
 def move_keyframe(document: Document, layer_id: int, frame: int, to: int) -> Document:
     """Move a keyframe to another, free frame, also past others."""
     layer = document.layer(layer_id)
-    keyframe = _keyframe(layer, frame)
+    keyframe = keyframe_of(layer, frame)
     if to == frame:
         return document
     if layer.keyframe_at(to) is not None:
         raise DocumentError(f"frame {to} of {layer.name!r} already holds a keyframe")
     rest = [k for k in layer.keyframes if k.frame != frame]
     insort(rest, replace(keyframe, frame=to), key=lambda k: k.frame)
-    document = _with_keyframes(document, layer, rest)
+    document = _with_keyframes(document, layer, rest, moved={to: frame})
     return set_length(document, max(document.length, to))
 
 
@@ -111,7 +157,7 @@ def add_outline(
 def move_vertices(document: Document, layer_id: int, frame: int, points: Mapping[int, FloatArray]) -> Document:
     """Give outlines new vertex places, {outline id: (n, 2)}; vertex counts stay."""
     layer = document.layer(layer_id)
-    keyframe = _keyframe(layer, frame)
+    keyframe = keyframe_of(layer, frame)
     drawing = keyframe.drawing
     for outline_id, moved in points.items():
         outline = drawing.outline(outline_id)
@@ -123,31 +169,28 @@ def move_vertices(document: Document, layer_id: int, frame: int, points: Mapping
             drawing = drawing.with_outline(replace(outline, points=moved))
     if drawing is keyframe.drawing:
         return document
-    return _with_keyframe(document, layer, replace(keyframe, drawing=drawing))
+    document = with_keyframe(document, layer, replace(keyframe, drawing=drawing))
+    return _in_both_spans(document, layer_id, frame, lambda pair, mine: _unsolved(pair, mine(pair) in points))
 
 
 def insert_vertex(document: Document, layer_id: int, frame: int, outline_id: int, position: float) -> Document:
     """Put a vertex on an outline at a position inside an edge; its shape stays."""
     layer = document.layer(layer_id)
-    keyframe = _keyframe(layer, frame)
+    keyframe = keyframe_of(layer, frame)
     outline = keyframe.drawing.outline(outline_id)
+    top = len(outline.points) if outline.closed else len(outline.points) - 1
+    if not 0 <= position <= top:
+        raise DocumentError(f"a vertex at {position:g} on outline {outline_id}, which ends at {top}")
     edge = int(position)
     if position == edge:
         return document
     place = points_at(outline.points, np.array([position]), closed=outline.closed)
     points = np.insert(outline.points, edge + 1, place, axis=0)
 
-    def moved(at: float) -> float:
-        if at <= edge:
-            return at
-        if at >= edge + 1:
-            return at + 1
-        share = position - edge
-        along = at - edge
-        return edge + along / share if along <= share else edge + 1 + (along - share) / (1 - share)
-
     drawing = keyframe.drawing.with_outline(replace(outline, points=points))
-    return _with_changed_outline(document, layer, replace(keyframe, drawing=drawing), outline_id, moved)
+    return _with_changed_outline(
+        document, layer, replace(keyframe, drawing=drawing), outline_id, after_insertion(position)
+    )
 
 
 def delete_vertices(
@@ -156,10 +199,14 @@ def delete_vertices(
     """Take vertices away, {outline id: indices}; an outline left with too few goes as a whole."""
     for outline_id, gone in indices.items():
         layer = document.layer(layer_id)
-        keyframe = _keyframe(layer, frame)
+        keyframe = keyframe_of(layer, frame)
         outline = keyframe.drawing.outline(outline_id)
-        keep = np.setdiff1d(np.arange(len(outline.points)), np.fromiter(gone, dtype=np.intp))
-        if len(keep) == len(outline.points):
+        count = len(outline.points)
+        lost = np.unique(np.fromiter(gone, dtype=np.intp))
+        if len(lost) and not 0 <= lost[0] <= lost[-1] < count:
+            raise DocumentError(f"outline {outline_id} has {count} vertices; there is no {lost[[0, -1]].tolist()}")
+        keep = np.setdiff1d(np.arange(count), lost)
+        if len(keep) == count:
             continue
         if len(keep) < (3 if outline.closed else 2):
             document = delete_outline(document, layer_id, frame, outline_id)
@@ -167,28 +214,28 @@ def delete_vertices(
         changed = replace(
             keyframe, drawing=keyframe.drawing.with_outline(replace(outline, points=outline.points[keep]))
         )
-        document = _with_changed_outline(document, layer, changed, outline_id, _kept_positions(outline, keep))
+        document = _with_changed_outline(document, layer, changed, outline_id, after_deletion(outline, keep))
     return document
 
 
 def delete_outline(document: Document, layer_id: int, frame: int, outline_id: int) -> Document:
     """Take one outline out of a drawing; the last one takes the keyframe with it."""
     layer = document.layer(layer_id)
-    keyframe = _keyframe(layer, frame)
+    keyframe = keyframe_of(layer, frame)
     drawing = keyframe.drawing.without_outline(outline_id)
     if not drawing.outlines:
         return delete_keyframe(document, layer_id, frame)
-    document = _with_keyframe(document, layer, replace(keyframe, drawing=drawing))
+    document = with_keyframe(document, layer, replace(keyframe, drawing=drawing))
     return _in_both_spans(document, layer_id, frame, lambda pair, mine: None if mine(pair) == outline_id else pair)
 
 
 def set_style(document: Document, layer_id: int, frame: int, style: Style) -> Document:
     """Paint the drawing at `frame` differently."""
     layer = document.layer(layer_id)
-    keyframe = _keyframe(layer, frame)
+    keyframe = keyframe_of(layer, frame)
     if keyframe.drawing.style == style:
         return document
-    return _with_keyframe(document, layer, replace(keyframe, drawing=replace(keyframe.drawing, style=style)))
+    return with_keyframe(document, layer, replace(keyframe, drawing=replace(keyframe.drawing, style=style)))
 
 
 def set_span(
@@ -199,76 +246,29 @@ def set_span(
     method: str | None = None,
     easing: Easing | None = None,
     turns: int | None = None,
+    repair: bool | None = None,
 ) -> Document:
     """Change how the span that begins at `frame` moves."""
     layer = document.layer(layer_id)
-    keyframe = _keyframe(layer, frame)
+    keyframe = keyframe_of(layer, frame)
     span = keyframe.span
     changed = replace(
         span,
         method=span.method if method is None else method,
         easing=span.easing if easing is None else easing,
         turns=span.turns if turns is None else turns,
+        repair=span.repair if repair is None else repair,
     )
-    return document if changed == span else _with_keyframe(document, layer, replace(keyframe, span=changed))
+    return document if changed == span else with_keyframe(document, layer, replace(keyframe, span=changed))
 
 
-def add_anchor(
-    document: Document, layer_id: int, frame: int, before_id: int, after_id: int, anchor: Anchor
-) -> Document:
-    """Fix a pair of points in the span that begins at `frame`.
-
-    An anchor that starts or ends at the same point as an old one takes its place. If either outline was paired
-    with another one, that pair is given up.
-
-    Raises
-    ------
-    CorrespondenceError
-        If it crosses another anchor.
-    """
-    old = _span(document, layer_id, frame).pair_of(before_id, after_id)
-    kept = tuple(x for x in old.anchors if x.before != anchor.before and x.after != anchor.after) if old else ()
-    return _set_anchors(document, layer_id, frame, before_id, after_id, (*kept, anchor))
-
-
-def move_anchor(
-    document: Document, layer_id: int, frame: int, before_id: int, after_id: int, index: int, anchor: Anchor
-) -> Document:
-    """Put the anchor number `index` of a pair elsewhere on the two outlines; raises as `add_anchor` does."""
-    anchors = list(_anchors(document, layer_id, frame, before_id, after_id))
-    if anchors[index] == anchor:
-        return document
-    anchors[index] = anchor
-    return _set_anchors(document, layer_id, frame, before_id, after_id, tuple(anchors))
-
-
-def delete_anchor(
-    document: Document, layer_id: int, frame: int, before_id: int, after_id: int, index: int
-) -> Document:
-    """Take one anchor away; the pair of outlines stays."""
-    anchors = _anchors(document, layer_id, frame, before_id, after_id)
-    rest = anchors[:index] + anchors[index + 1 :]
-    return _set_anchors(document, layer_id, frame, before_id, after_id, rest)
-
-
-def clear_anchors(document: Document, layer_id: int, frame: int) -> Document:
-    """Forget every anchor and hand-made pair of a span."""
+def set_reference(document: Document, layer_id: int, frame: int, reference: Reference | None) -> Document:
+    """Lay a picture under the stage at a keyframe, or take it away."""
     layer = document.layer(layer_id)
-    keyframe = _keyframe(layer, frame)
-    if not keyframe.span.pairs:
+    keyframe = keyframe_of(layer, frame)
+    if keyframe.reference == reference:
         return document
-    return _with_keyframe(document, layer, replace(keyframe, span=replace(keyframe.span, pairs=())))
-
-
-def _keyframe(layer: Layer, frame: int) -> Keyframe:
-    keyframe = layer.keyframe_at(frame)
-    if keyframe is None:
-        raise DocumentError(f"layer {layer.name!r} has no keyframe at frame {frame}")
-    return keyframe
-
-
-def _span(document: Document, layer_id: int, frame: int) -> Span:
-    return _keyframe(document.layer(layer_id), frame).span
+    return with_keyframe(document, layer, replace(keyframe, reference=reference))
 
 
 def _style_near(layer: Layer, frame: int) -> Style:
@@ -277,18 +277,18 @@ def _style_near(layer: Layer, frame: int) -> Style:
     return near.drawing.style if near else Style()
 
 
-def _with_keyframe(document: Document, layer: Layer, keyframe: Keyframe) -> Document:
-    keyframes = tuple(keyframe if k.frame == keyframe.frame else k for k in layer.keyframes)
-    return document.with_layer(replace(layer, keyframes=keyframes))
+def _with_keyframes(
+    document: Document, layer: Layer, keyframes: list[Keyframe], *, moved: Mapping[int, int] = NOT_MOVED
+) -> Document:
+    """Set all keyframes; a span whose keyframe after is another one now forgets its pairs.
 
-
-def _with_keyframes(document: Document, layer: Layer, keyframes: list[Keyframe]) -> Document:
-    """Set all keyframes; a span whose keyframe after is another one now forgets its pairs."""
-    followers = {id(a.drawing): b.drawing for a, b in zip(layer.keyframes, layer.keyframes[1:], strict=False)}
+    `moved` tells the frame that a keyframe came from. Drawings cannot tell: several keyframes may share one.
+    """
+    followers = {a.frame: b.drawing for a, b in itertools.pairwise(layer.keyframes)}
     renewed = []
-    for i, k in enumerate(keyframes):
-        follower = keyframes[i + 1].drawing if i + 1 < len(keyframes) else None
-        if k.span.pairs and followers.get(id(k.drawing)) is not follower:
+    for k, following in itertools.zip_longest(keyframes, keyframes[1:]):
+        follower = following.drawing if following else None
+        if k.span.pairs and followers.get(moved.get(k.frame, k.frame)) is not follower:
             k = replace(k, span=replace(k.span, pairs=()))
         renewed.append(k)
     return document.with_layer(replace(layer, keyframes=tuple(renewed)))
@@ -298,16 +298,36 @@ def _with_changed_outline(
     document: Document, layer: Layer, keyframe: Keyframe, outline_id: int, moved: Positions
 ) -> Document:
     """Set a keyframe in which one outline got other vertices, and carry the anchors on it along."""
-    document = _with_keyframe(document, layer, keyframe)
+    document = with_keyframe(document, layer, keyframe)
+    count = len(keyframe.drawing.outline(outline_id).points)
+    here = layer.frames().index(keyframe.frame)
 
-    def carried(pair: OutlinePair, mine: Callable[[OutlinePair], int]) -> OutlinePair:
+    def carried(pair: OutlinePair, mine: Mine) -> OutlinePair | None:
         if mine(pair) != outline_id:
             return pair
-        side = "before" if mine is _before_id else "after"
-        anchors = tuple(x._replace(**{side: moved(getattr(x, side))}) for x in pair.anchors)
-        return replace(pair, anchors=anchors, correspondence=None)
+        before = mine is _before_id
+        drawing = layer.keyframes[here + 1 if before else here - 1].drawing
+        partner_id = pair.after if before else pair.before
+        if not drawing.has(partner_id):
+            return None
+        partner = drawing.outline(partner_id)
+        counts = (count, len(partner.points)) if before else (len(partner.points), count)
+        if before:
+            anchors = [x._replace(before=moved(x.before)) for x in pair.anchors]
+        else:
+            anchors = [x._replace(after=moved(x.after)) for x in pair.anchors]
+        return replace(
+            pair, anchors=holding(anchors, counts, closed=partner.closed), correspondence=None, chosen=False
+        )
 
     return _in_both_spans(document, layer.id, keyframe.frame, carried)
+
+
+def _unsolved(pair: OutlinePair, moved: bool) -> OutlinePair | None:
+    """Give up a stored answer of the solver; of a pair that holds nothing else nothing is left."""
+    if not moved or pair.chosen or pair.correspondence is None:
+        return pair
+    return replace(pair, correspondence=None) if pair.anchors else None
 
 
 def _before_id(pair: OutlinePair) -> int:
@@ -322,75 +342,17 @@ def _in_both_spans(
     document: Document,
     layer_id: int,
     frame: int,
-    change: Callable[[OutlinePair, Callable[[OutlinePair], int]], OutlinePair | None],
+    change: Callable[[OutlinePair, Mine], OutlinePair | None],
 ) -> Document:
     """Apply `change` to the pairs of the span that begins at `frame` and of the one that ends there."""
     layer = document.layer(layer_id)
     here = layer.frames().index(frame)
     for i, mine in ((here, _before_id), (here - 1, _after_id)):
-        if i < 0 or not layer.keyframes[i].span.pairs:
+        if not 0 <= i < len(layer.keyframes) - 1 or not layer.keyframes[i].span.pairs:
             continue
         keyframe = layer.keyframes[i]
         pairs = tuple(p for p in (change(pair, mine) for pair in keyframe.span.pairs) if p is not None)
         if pairs != keyframe.span.pairs:
-            document = _with_keyframe(document, layer, replace(keyframe, span=replace(keyframe.span, pairs=pairs)))
+            document = with_keyframe(document, layer, replace(keyframe, span=replace(keyframe.span, pairs=pairs)))
             layer = document.layer(layer_id)
     return document
-
-
-def _kept_positions(outline: Outline, keep: npt.NDArray[np.intp]) -> Positions:
-    """From a position on the outline to the one at the same share of the way between the vertices kept."""
-    n, closed = len(outline.points), outline.closed
-    old = keep.astype(np.float64)
-    new = np.arange(len(keep), dtype=np.float64)
-    if closed:
-        old, new = np.append(old, old[0] + n), np.append(new, len(keep))
-    whole = float(lengths_at(outline.points, np.array([n if closed else n - 1]), closed=closed)[0])
-
-    def length(at: FloatArray) -> FloatArray:
-        rounds = np.floor(at / n) if closed else np.zeros_like(at)
-        return lengths_at(outline.points, at - rounds * n, closed=closed) + rounds * whole
-
-    marks = length(old)
-
-    def moved(at: float) -> float:
-        lifted = at + n if closed and at < old[0] else at
-        exact = np.flatnonzero(old == lifted)
-        if len(exact):
-            place = float(new[exact[0]])
-        else:
-            place = float(np.interp(length(np.array([lifted])), marks, new)[0])
-        return place % len(keep) if closed else place
-
-    return moved
-
-
-def _anchors(document: Document, layer_id: int, frame: int, before_id: int, after_id: int) -> tuple[Anchor, ...]:
-    pair = _span(document, layer_id, frame).pair_of(before_id, after_id)
-    if pair is None:
-        raise DocumentError(f"outlines {before_id} and {after_id} have no anchors in the span at frame {frame}")
-    return pair.anchors
-
-
-def _set_anchors(
-    document: Document,
-    layer_id: int,
-    frame: int,
-    before_id: int,
-    after_id: int,
-    anchors: tuple[Anchor, ...],
-) -> Document:
-    layer = document.layer(layer_id)
-    keyframe = _keyframe(layer, frame)
-    following = [k for k in layer.keyframes if k.frame > frame]
-    if not following:
-        raise DocumentError(f"no span begins at frame {frame}: it holds the last keyframe")
-    a = keyframe.drawing.outline(before_id)
-    b = following[0].drawing.outline(after_id)
-    if a.closed != b.closed:
-        raise CorrespondenceError("a closed outline cannot correspond to an open one")
-    ordered_anchors(anchors, (len(a.points), len(b.points)), closed=a.closed)
-    others = tuple(p for p in keyframe.span.pairs if p.before != before_id and p.after != after_id)
-    pair = OutlinePair(before_id, after_id, anchors)
-    span = replace(keyframe.span, pairs=(*others, pair))
-    return _with_keyframe(document, layer, replace(keyframe, span=span))

@@ -1,18 +1,20 @@
 """From a document to the picture of a frame: matched once, planned once, evaluated often."""
 
 from collections import OrderedDict
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from core.correspondence.drawings import pair_outlines
 from core.correspondence.matching import match
 from core.correspondence.pairing import Correspondence
 from core.geometry.outline import FloatArray, locate, points_at
-from core.methods.plan import AlignedPair, DrawingPlan, plan_drawing
+from core.methods.plan import AlignedPair
 from core.model.color import mix_colors
 from core.model.document import Document, Keyframe, Layer, Span, ratio_in_span
 from core.model.drawing import Drawing, Outline, Style
+from core.model.solving import Paths, solve_paths
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,16 +32,29 @@ class Picture:
     style: Style
 
 
-@dataclass(frozen=True, slots=True)
+Rows = tuple[FloatArray, FloatArray]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class PairMatch:
-    """Two outlines by id and their correspondence."""
+    """Two outlines by id and their correspondence.
+
+    Attributes
+    ----------
+    before, after : int
+    correspondence : Correspondence
+    rows : Rows or None
+        Positions of the vertices of the in-between on both outlines, worked out before; they stay good while
+        vertices are dragged, and taking them again is quicker than walking along both outlines at every step.
+    """
 
     before: int
     after: int
     correspondence: Correspondence
+    rows: Rows | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class SpanMatch:
     """Every correspondence of a span; outlines named nowhere here have no partner."""
 
@@ -76,19 +91,19 @@ class SpanPlan:
     """Everything about a span that does not depend on t."""
 
     links: tuple[Link, ...]
-    paths: DrawingPlan
+    paths: Paths
     styles: tuple[Style, Style]
 
     def picture(self, t: float) -> Picture:
         """Return the in-between at the eased t (0 and 1 give the keyframes' shapes)."""
-        frames = self.paths.evaluate(np.array([t]))
+        frames = self.paths.plan.evaluate(np.array([t]))
         closed = (link.aligned.closed for link in self.links)
         outlines = tuple((f[0], c) for f, c in zip(frames, closed, strict=True))
         return Picture(outlines, mix_styles(*self.styles, t))
 
     def frames(self, t: Sequence[float]) -> tuple[FloatArray, ...]:
         """Return one (T, k, 2) array an outline for all t at once."""
-        return self.paths.evaluate(np.asarray(t, dtype=np.float64))
+        return self.paths.plan.evaluate(np.asarray(t, dtype=np.float64))
 
 
 def mix_styles(before: Style, after: Style, t: float) -> Style:
@@ -102,15 +117,18 @@ def mix_styles(before: Style, after: Style, t: float) -> Style:
 
 
 def paired_outlines(before: Drawing, after: Drawing, span: Span) -> tuple[tuple[int, int], ...]:
-    """Return the ids of outlines that belong together: those of the artist first, the rest in order of drawing."""
+    """Return the ids of outlines that belong together: those of the artist first, then the likeliest pairs."""
     fixed = tuple((p.before, p.after) for p in span.pairs if before.has(p.before) and after.has(p.after))
-    taken_before, taken_after = {i for i, _ in fixed}, {j for _, j in fixed}
-    free = []
-    for closed in (True, False):
-        left = (o.id for o in before.outlines if o.closed == closed and o.id not in taken_before)
-        right = (o.id for o in after.outlines if o.closed == closed and o.id not in taken_after)
-        free += list(zip(left, right, strict=False))
-    return fixed + tuple(free)
+    left, right = before.outlines, after.outlines
+    if len(left) == len(right) == 1 and left[0].closed == right[0].closed:
+        return ((left[0].id, right[0].id),)
+    row = {o.id: i for i, o in enumerate(left)}, {o.id: j for j, o in enumerate(right)}
+    found = pair_outlines(
+        [(o.points, o.closed) for o in left],
+        [(o.points, o.closed) for o in right],
+        [(row[0][i], row[1][j]) for i, j in fixed],
+    )
+    return tuple((left[i].id, right[j].id) for i, j in found.pairs)
 
 
 def match_span(before: Drawing, after: Drawing, span: Span) -> SpanMatch:
@@ -120,14 +138,22 @@ def match_span(before: Drawing, after: Drawing, span: Span) -> SpanMatch:
         a, b = before.outline(i), after.outline(j)
         made = span.pair_of(i, j)
         kept = made.correspondence if made else None
-        anchors = made.anchors if made else ()
+        anchors = made.held if made else ()
         closed = a.closed and b.closed
         pairs.append(PairMatch(i, j, kept or match(a.points, b.points, anchors, closed=closed)))
     return SpanMatch(tuple(pairs))
 
 
-def plan_span(before: Drawing, after: Drawing, span: Span, matched: SpanMatch | None = None) -> SpanPlan:
-    """Return the plan of a span.
+def plan_span(
+    before: Drawing,
+    after: Drawing,
+    span: Span,
+    matched: SpanMatch | None = None,
+    *,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> SpanPlan:
+    """Return the plan of a span; linear and intrinsic at once, the others and a repair may take their time.
 
     Parameters
     ----------
@@ -135,25 +161,30 @@ def plan_span(before: Drawing, after: Drawing, span: Span, matched: SpanMatch | 
     span : Span
     matched : SpanMatch, optional
         Correspondences solved before, also for drawings whose vertices have moved since; solved when omitted.
+    progress, cancelled
+        Of the repair; see `core.repair.plan.repair_drawing`.
 
     Raises
     ------
+    CancelledError
+        When `cancelled` says so.
     CorrespondenceError
         If `matched` is of outlines with other vertex counts, or the anchors cross.
     """
     matched = matched or match_span(before, after, span)
-    links = [_paired(before.outline(p.before), after.outline(p.after), p.correspondence) for p in matched.pairs]
+    links = [_paired(before.outline(p.before), after.outline(p.after), p) for p in matched.pairs]
     partnered_before = {p.before for p in matched.pairs}
     partnered_after = {p.after for p in matched.pairs}
     links += [_shrinking(o, after) for o in before.outlines if o.id not in partnered_before]
     links += [_growing(o, before) for o in after.outlines if o.id not in partnered_after]
-    paths = plan_drawing([link.aligned for link in links], method=span.method, turns=span.turns)
+    pairs = [link.aligned for link in links]
+    paths = solve_paths(pairs, span.method, span.turns, repair=span.repair, progress=progress, cancelled=cancelled)
     return SpanPlan(tuple(links), paths, (before.style, after.style))
 
 
-def _paired(a: Outline, b: Outline, correspondence: Correspondence) -> Link:
-    p, q = correspondence.aligned_positions(a.points, b.points)
-    closed = correspondence.closed
+def _paired(a: Outline, b: Outline, pair: PairMatch) -> Link:
+    p, q = pair.rows or pair.correspondence.aligned_positions(a.points, b.points)
+    closed = pair.correspondence.closed
     aligned = AlignedPair(points_at(a.points, p, closed=closed), points_at(b.points, q, closed=closed), closed)
     return Link(a.id, b.id, p, q, aligned)
 

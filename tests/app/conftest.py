@@ -62,10 +62,11 @@ class Hand:
         held: Qt.KeyboardModifier = NONE,
     ) -> None:
         """Press at the start, move along the way, release at its end."""
-        self.press(start, held)
-        for place in way:
-            self.move(place, held)
-        self.release(way[-1], held)
+        pad, path = self.canvas.viewport(), [self.view(p) for p in (start, *way)]
+        QTest.mousePress(pad, LEFT, held, path[0])
+        for at in path[1:]:
+            move_pointer(pad, at, held, LEFT)
+        QTest.mouseRelease(pad, LEFT, held, path[-1])
 
     # keys, menus, the rest of the window
 
@@ -86,8 +87,8 @@ class Hand:
         return self.editor.window.message_bar.text
 
     def settle(self, qtbot: QtBot) -> None:
-        """Wait until the worker has nothing left to do."""
-        qtbot.waitUntil(lambda: self.editor.preview.settled, timeout=20_000)
+        """Wait until what is shown is final."""
+        qtbot.waitUntil(lambda: self.canvas.content is not None and self.editor.preview.settled, timeout=20_000)
 
     def move_on(self, widget: QWidget, at: QPoint) -> None:
         """Move over another widget with the left button down."""
@@ -112,8 +113,8 @@ def move_pointer(widget: QWidget, at: QPoint, held: Qt.KeyboardModifier, button:
 
 
 @pytest.fixture(scope="session")
-def qapp() -> Iterator[QApplication]:
-    yield make_application()
+def qapp() -> QApplication:
+    return make_application()
 
 
 @pytest.fixture
@@ -123,10 +124,11 @@ def settings(tmp_path: Path) -> Settings:
 
 
 @pytest.fixture
-def editor(qtbot: QtBot, settings: Settings, monkeypatch: pytest.MonkeyPatch) -> Iterator[Editor]:
+def editor(qtbot: QtBot, settings: Settings) -> Iterator[Editor]:
     settings.keep("theme", "dark")
     made = Editor(settings)
-    qtbot.addWidget(made.window)
+    # the window is closed before this fixture ends, and nobody is there to answer a question
+    qtbot.addWidget(made.window, before_close_func=lambda _: setattr(made.files, "may_leave", lambda: True))
     made.window.resize(1440, 900)
     with qtbot.waitExposed(made.window):
         made.window.show()
@@ -135,7 +137,7 @@ def editor(qtbot: QtBot, settings: Settings, monkeypatch: pytest.MonkeyPatch) ->
     yield made
     made.playback.stop()
     made.preview.stop()
-    monkeypatch.setattr(made.files, "may_leave", lambda: True)
+    made.ranked.stop()
 
 
 @pytest.fixture

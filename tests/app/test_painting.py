@@ -100,6 +100,21 @@ def test_a_thinned_outline_looks_as_if_every_vertex_were_drawn(count, width):
     assert (difference > 48).mean() < 1e-4
 
 
+@pytest.mark.parametrize("width", [4.0, 6.0, 20.0])
+@pytest.mark.parametrize("closed", [True, False])
+def test_corners_of_an_outline_of_many_vertices_are_round(closed, width):
+    corners = square(100, 100, 200)
+    sides = zip(corners, np.roll(corners, -1, axis=0), strict=True)
+    points = np.concatenate([np.linspace(a, b, 50, endpoint=False) for a, b in sides])
+    ends = corners if closed else np.vstack([corners, points[-1:]])
+    dense = painted([(points, closed)], fill=None, stroke=BLACK, width=width)
+    plain = painted([(ends, closed)], fill=None, stroke=BLACK, width=width)
+    for x, y in corners.astype(int):
+        near = np.s_[y - 15 : y + 15, x - 15 : x + 15, 0]
+        missing = (dense[near] - plain[near]).sum() / 255
+        assert abs(missing) < 0.14 * (width / 2) ** 2  # px; a bevel would lack twice that
+
+
 @given(
     st.integers(65, 600),
     st.floats(0.01, 30),

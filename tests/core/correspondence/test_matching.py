@@ -12,7 +12,7 @@ from core.correspondence.matching import alternatives, match, match_quick
 from core.errors import CorrespondenceError, GeometryError
 from core.geometry.outline import lengths_at, perimeter, points_at, positions_at_lengths, size
 
-brief = settings(max_examples=20, deadline=None, derandomize=True, phases=(Phase.explicit, Phase.generate))
+brief = settings(max_examples=12, deadline=None, derandomize=True, phases=(Phase.explicit, Phase.generate))
 SHARES = np.arange(200) / 200
 
 
@@ -104,6 +104,13 @@ def test_every_anchor_is_kept_exactly(a, b, data):
 @given(blobs(), blobs())
 def test_exchanging_the_outlines_gives_the_inverse(a, b):
     assert shift(map_of(match(b, a).inverse, a, b), map_of(match(a, b), a, b)) < 1e-3
+
+
+@brief
+@given(blobs(), blobs(), st.floats(0, 11.5), st.floats(0, 11.5))
+def test_exchanging_the_outlines_and_their_anchors_gives_the_inverse(a, b, x, y):
+    there, back = match(a, b, [(x, y)]), match(b, a, [(y, x)])
+    assert shift(map_of(back.inverse, a, b), map_of(there, a, b)) < 1e-3
 
 
 @brief
@@ -234,7 +241,8 @@ HARD = {
 @pytest.mark.parametrize("one", HARD)
 def test_hard_outlines_match_without_warning(one, closed):
     a = np.asarray(HARD[one], float)
-    for b in (np.asarray(x, float) for x in HARD.values()):
+    for other in ("triangle", "comb", "collinear", "doubled"):
+        b = np.asarray(HARD[other], float)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             c = match(a, b, closed=closed)
@@ -271,3 +279,12 @@ def test_dragging_one_anchor_moves_little_beyond_the_next():
     far = np.linspace(81, 109, 40) % 100
     moved = [lengths_at(b, s.images(a, b, far)) / perimeter(b) for s in steps]
     assert shift(*moved) < 0.002
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_several_anchors_on_an_edge_without_length_are_kept(closed):
+    a = np.repeat(wave([0.2, 0, 0, 0], [0, 0, 0, 0], 8), 2, axis=0)
+    b = wave([0.1, 0.1, 0, 0], [0, 1, 0, 0], 11)
+    anchors = [(4.25, 2.5), (4.5, 4.0), (4.75, 6.125)]
+    c = match(a, b, anchors, closed=closed)
+    assert set(anchors) <= set(zip(c.before.tolist(), c.after.tolist(), strict=True))

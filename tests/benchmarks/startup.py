@@ -1,0 +1,39 @@
+"""The time to the first word of the command line, as a ratio to an empty Python.
+
+Run from the root: python tests/benchmarks/startup.py
+"""
+
+import statistics
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+
+
+def milliseconds(words, repeats=21):
+    """Return the median of runs of Python with these words."""
+    times = []
+    for _ in range(repeats):
+        began = time.perf_counter()
+        subprocess.run([sys.executable, *words], stdout=subprocess.DEVNULL, cwd=ROOT, check=True)
+        times.append(1000 * (time.perf_counter() - began))
+    return statistics.median(times)
+
+
+def main():
+    """Print every figure."""
+    empty = milliseconds(["-c", "pass"])
+    console_script = "import sys; from app.cli import main; sys.exit(main(['--help']))"
+    print(f"python -c pass: {empty:.1f} ms")
+    for name, words in (
+        ("inkbetween --help", ["-c", console_script]),
+        ("python -m app --help", ["-m", "app", "--help"]),
+    ):
+        took = milliseconds(words)
+        print(f"{name}: {took:.1f} ms, {took / empty:.2f} times (goal under 3)")
+
+
+if __name__ == "__main__":
+    main()
