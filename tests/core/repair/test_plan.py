@@ -79,6 +79,15 @@ def test_frames_far_from_the_trouble_are_the_methods_own():
     assert (wished == frames).all(axis=(1, 2)).mean() > 0.2
 
 
+def test_the_deviation_tells_how_far_the_paths_are_bent():
+    assert plan_repair(plan(SQUARE, DIAMOND)).deviation == 0
+    repaired, _ = repaired_once()
+    wished = tangled().evaluate(np.linspace(0, 1, 65))
+    away = repaired.evaluate(np.linspace(0, 1, 65)) - wished
+    size = np.ptp(wished[[0, -1]].reshape(-1, 2), axis=0).max()
+    assert repaired.deviation == pytest.approx(np.sqrt((away**2).sum(axis=2).mean(axis=1)).mean() / size)
+
+
 def test_repaired_paths_are_continuous():
     repaired, _ = repaired_once()
     coarse, fine = (steps(repaired.evaluate(np.linspace(0, 1, k))).max() for k in (241, 240 * 64 + 1))
