@@ -21,6 +21,7 @@ from app.panels.drawing import DrawingPanel
 from app.panels.easing import EasingPanel
 from app.panels.messagebar import MessageBar
 from app.panels.parts import separator
+from app.panels.reference import ReferencePanel
 from app.panels.span import SpanPanel
 from app.panels.timeline import Timeline, action_button
 from app.playback import Playback
@@ -70,6 +71,7 @@ class Window(QMainWindow):
         self.span_panel = SpanPanel(session, view, self.table.actions, preview, self.alternatives_panel)
         self.easing_panel = EasingPanel(session, theme)
         self.drawing_panel = DrawingPanel(session, theme, *self._tolerance())
+        self.reference_panel = ReferencePanel(session)
         self.setCentralWidget(self._central())
         self.message_bar = MessageBar(self.canvas, theme)
         self._make_status_bar()
@@ -130,7 +132,7 @@ class Window(QMainWindow):
         column = QVBoxLayout(inner)
         column.setContentsMargins(0, 4, 0, 12)
         column.setSpacing(4)
-        for panel in (self.span_panel, self.easing_panel, self.drawing_panel):
+        for panel in (self.span_panel, self.easing_panel, self.drawing_panel, self.reference_panel):
             column.addWidget(panel)
             column.addWidget(separator())
         column.addStretch(1)

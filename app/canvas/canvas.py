@@ -19,6 +19,7 @@ from app.canvas.items import (
     ToolItem,
 )
 from app.canvas.papers import whole_area
+from app.canvas.reference import ReferenceItem, ReferencePictures
 from app.canvas.tool import Pointer, Tool
 from app.painting import ROUNDS, Thinner
 from app.preview.spans import SpanPreview
@@ -54,6 +55,7 @@ class Canvas(pg.GraphicsView):
         self.tool: Tool | None = None
         self.hover: QPointF | None = None
         self.thinner = Thinner()
+        self.references = ReferencePictures(self)
         self._plans = PlanCache()
         self._content: Content | None = None
         self._follows_stage = True
@@ -72,6 +74,7 @@ class Canvas(pg.GraphicsView):
     def _add_items(self) -> None:
         kinds = (PaperItem, OnionItem, FilmItem, ShapesItem, LinesItem, LabelsItem, HandlesItem, ToolItem)
         self._items = [kind(self, 10 * z) for z, kind in enumerate(kinds)]
+        self._items.append(ReferenceItem(self, 2))
         self._items.append(OthersItem(self, 5, in_front=False))
         self._items.append(OthersItem(self, 35, in_front=True))
         for item in self._items:

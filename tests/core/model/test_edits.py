@@ -428,3 +428,12 @@ def test_whatever_edits_leave_can_be_saved_and_opened(data, closed):
         assert after is document or after != document
         assert decode(encode(after)) == after
         document = after
+
+
+def test_a_new_layer_lies_in_front_and_has_an_id_of_its_own():
+    document = edits.add_layer(Document(layers=(Layer(2, "a"), Layer(1, "b"))), "c")
+    assert [(x.id, x.name) for x in document.layers] == [(2, "a"), (1, "b"), (3, "c")]
+    highest = edits.add_layer(Document(layers=(Layer(2**31 - 1),)), "next")
+    assert highest.layers[-1].id == 1
+    with pytest.raises(DocumentError, match="name"):
+        edits.add_layer(document, "x" * 1001)
