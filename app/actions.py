@@ -99,6 +99,14 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "view.lines", "View", "Next Kind of Lines", ("L",), tip="Lines of the correspondence: all, anchors, none"
     ),
     ActionSpec(
+        "view.hues",
+        "View",
+        "Colour by Correspondence",
+        ("H",),
+        checkable=True,
+        tip="Matching parts of the two outlines get the same colour",
+    ),
+    ActionSpec(
         "view.final", "View", "Final Look", ("F9",), "visible", checkable=True, tip="As exported, without helpers"
     ),
     _line("View"),
@@ -149,8 +157,26 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("insert.no_reference", "Insert", "Remove Reference Picture"),
     ActionSpec("span.linear", "Span", "Linear", (), "", checkable=True, group="method"),
     ActionSpec("span.intrinsic", "Span", "Intrinsic", (), "", checkable=True, group="method"),
+    ActionSpec("span.rigid", "Span", "Rigid", (), "", checkable=True, group="method"),
+    ActionSpec("span.auto", "Span", "Auto", (), "", checkable=True, group="method"),
     _line("Span"),
     ActionSpec("span.clear", "Span", "Clear Anchors"),
+    ActionSpec(
+        "span.again", "Span", "Solve Again", tip="Forget the stored or chosen correspondence; anchors stay"
+    ),
+    ActionSpec(
+        "span.flip", "Span", "Flip Direction", ("Shift+D",), tip="Let the correspondence run the other way round"
+    ),
+    ActionSpec(
+        "span.shift_on",
+        "Span",
+        "Shift Start Forward",
+        ("]",),
+        tip="The start goes to the next vertex after",
+    ),
+    ActionSpec(
+        "span.shift_back", "Span", "Shift Start Back", ("[",), tip="The start goes to the vertex before it"
+    ),
     _line("Span"),
     ActionSpec("play.toggle", "Span", "Play", ("Space",), "play"),
     ActionSpec("play.loop", "Span", "Loop", (), "loop", checkable=True),

@@ -4,12 +4,12 @@ import signal
 import sys
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QObject, Qt, QTimer
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QIcon
 from PySide6.QtWidgets import QApplication, QMenu
 
 import resources
-from app import editing
+from app import editing, matching
 from app.canvas.reference import current_reference
 from app.dialogs.export import ExportDialog
 from app.dialogs.help import show_about, show_keys
@@ -18,18 +18,25 @@ from app.editing import Clipboard
 from app.files import Files
 from app.incoming import Incoming
 from app.playback import Playback
+from app.preview.alternatives import AlternativesPreview
 from app.preview.spans import SpanPreview
 from app.session import Selection, Session
 from app.settings import Settings
 from app.theme import icon, palette, system_theme
 from app.view import LINES, ViewState
 from app.window import Window
-from core.model.edits import clear_anchors, set_stage
+from core.model.edits import clear_anchors, set_stage, solve_again
 from core.model.inbetweens import PlanCache
 
 ARRANGEMENT_ACTIONS = {"overlaid": "view.overlaid", "side by side": "view.side", "compare": "view.compare"}
 THEME_ACTIONS = {"system": "view.theme_system", "light": "view.theme_light", "dark": "view.theme_dark"}
-METHOD_ACTIONS = {"linear": "span.linear", "intrinsic": "span.intrinsic"}
+SPAN_ACTIONS = ("span.clear", "span.again", "span.flip", "span.shift_on", "span.shift_back", "view.compare")
+METHOD_ACTIONS = {
+    "linear": "span.linear",
+    "intrinsic": "span.intrinsic",
+    "rigid": "span.rigid",
+    "auto": "span.auto",
+}
 
 
 class Editor(QObject):
@@ -45,8 +52,11 @@ class Editor(QObject):
         self.clipboard = Clipboard()
         self.plans = PlanCache()
         theme = system_theme(self.settings.text("theme", "system"))
-        self.window = Window(self.session, self.preview, self.view_state, self.playback, self.settings, theme)
-        self.files = Files(self.window, self.session, self.settings, self.window.tell)
+        self.ranked = AlternativesPreview(self.preview, self)
+        self.window = Window(
+            self.session, self.preview, self.ranked, self.view_state, self.playback, self.settings, theme
+        )
+        self.files = Files(self.window, self.session, self.settings, self.preview.with_answers, self.window.tell)
         self.incoming = Incoming(self.window, self.session, self.settings)
         self.export_dialog: ExportDialog | None = None
         self.window.table.connect_all(self._runs())
@@ -82,9 +92,7 @@ class Editor(QObject):
             "file.export": self.export_frames,
             "file.close": files.new,
             "file.quit": self.window.close,
-            "help.keys": lambda: show_keys(
-                self.window, self.window.tools.values(), self.window.table.actions.values()
-            ),
+            "help.keys": lambda: show_keys(window, window.tools.values()),
             "help.about": lambda: show_about(window),
         }
 
@@ -113,6 +121,7 @@ class Editor(QObject):
         runs = {
             "view.onion": lambda: view.set(onion=not view.options.onion),
             "view.lines": self._next_lines,
+            "view.hues": lambda: view.set(hues=not view.options.hues),
             "view.final": lambda: view.set(final=not view.options.final),
             "view.fit": canvas.fit,
             "view.zoom_in": lambda: canvas.zoom(1.25),
@@ -130,6 +139,10 @@ class Editor(QObject):
             "key.copy": lambda: editing.copy_to_other_keyframe(session),
             "key.delete": lambda: editing.delete_current_keyframe(session),
             "span.clear": self._clear_anchors,
+            "span.again": self._solve_again,
+            "span.flip": lambda: matching.flip(session, self.preview),
+            "span.shift_on": lambda: matching.shift(session, self.preview, 1),
+            "span.shift_back": lambda: matching.shift(session, self.preview, -1),
             "play.toggle": playback.toggle,
             "play.loop": lambda: playback.set_loop(not playback.loop),
             "play.previous": lambda: self._step(-1),
@@ -154,6 +167,11 @@ class Editor(QObject):
         before, after = self.session.span_keyframes()
         if before is not None and after is not None:
             self.session.apply("Clear Anchors", clear_anchors, self.session.layer.id, before.frame)
+
+    def _solve_again(self) -> None:
+        before, after = self.session.span_keyframes()
+        if before is not None and after is not None:
+            self.session.apply("Solve Again", solve_again, self.session.layer.id, before.frame)
 
     # connections
 
@@ -194,13 +212,14 @@ class Editor(QObject):
         table["edit.redo"].setText(f"Redo {stack.redoText()}".rstrip())
         before, after = session.span_keyframes()
         there = before is not None and after is not None
-        for name in (*METHOD_ACTIONS.values(), "span.clear", "view.compare"):
+        for name in (*METHOD_ACTIONS.values(), *SPAN_ACTIONS):
             table[name].setEnabled(there)
         if before is not None and there:
             table[METHOD_ACTIONS[before.span.method]].setChecked(True)
         table["key.delete"].setEnabled(session.layer.keyframe_at(session.frame) is not None)
         table["insert.no_reference"].setEnabled(current_reference(session) is not None)
         table["view.onion"].setChecked(options.onion)
+        table["view.hues"].setChecked(options.hues)
         table["view.final"].setChecked(options.final)
         table[ARRANGEMENT_ACTIONS[options.arrangement]].setChecked(True)
         self._show_playing()
@@ -293,6 +312,11 @@ class Editor(QObject):
         geometry = self.settings.blob("window/geometry")
         if geometry is not None:
             self.window.restoreGeometry(geometry)
+            return
+        screen = QGuiApplication.primaryScreen()
+        if screen is not None:  # a small laptop's screen is smaller than what we would like
+            room = screen.availableGeometry().size()
+            self.window.resize(self.window.size().boundedTo(room - QSize(40, 80)))
 
     def _on_close_asked(self, event: QCloseEvent) -> None:
         if not self.files.may_leave():
@@ -303,6 +327,7 @@ class Editor(QObject):
         self.incoming.stop()
         self.playback.stop()
         self.preview.stop()
+        self.ranked.stop()
         self.settings.keep("window/geometry", self.window.saveGeometry())
         event.accept()
 
@@ -339,9 +364,10 @@ def run(path: str | None = None, *, sample: bool = False) -> int:
     app = make_application()
     editor = Editor()
     if path is not None:
-        opened = editor.files.open_sample(Path(path)) if sample else editor.files.open_path(Path(path))
-        if sample and opened:
-            editor.session.go_to(max(1, editor.session.document.length // 2))
+        if sample:
+            editor.files.open_sample(Path(path))
+        else:
+            editor.files.open_path(Path(path))
     editor.window.show()
     signal.signal(signal.SIGINT, lambda *_: editor.window.close())
     beat = QTimer()  # Python sees Ctrl+C only when it runs now and then

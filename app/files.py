@@ -9,6 +9,7 @@ from app.session import Session
 from app.settings import Settings
 from core.errors import InkbetweenError
 from core.io.project import SUFFIX, load
+from core.model.document import Document
 
 FILTER = f"Inkbetween projects (*{SUFFIX});;All files (*)"
 
@@ -17,10 +18,16 @@ class Files:
     """Every way in which the open document meets the disk."""
 
     def __init__(
-        self, parent: QWidget, session: Session, settings: Settings, tell: Callable[[str, str], None]
+        self,
+        parent: QWidget,
+        session: Session,
+        settings: Settings,
+        completed: Callable[[Document], Document],
+        tell: Callable[[str, str], None],
     ) -> None:
-        """`tell(text, kind)` shows a sentence in the message bar."""
-        self._parent, self._session, self._settings, self._tell = parent, session, settings, tell
+        """`completed` adds to a document what is saved with it; `tell(text, kind)` shows a sentence."""
+        self._parent, self._session, self._settings = parent, session, settings
+        self._completed, self._tell = completed, tell
 
     def new(self) -> None:
         if self.may_leave():
@@ -54,6 +61,9 @@ class Files:
         except InkbetweenError as e:
             self._tell(str(e), "error")
             return False
+        frames = self._session.layer.frames()
+        if len(frames) > 1:
+            self._session.go_to((frames[0] + frames[1]) // 2)  # where an in-between is to be seen
         return True
 
     def save(self) -> bool:
@@ -90,7 +100,7 @@ class Files:
 
     def _save_to(self, path: Path) -> bool:
         try:
-            self._session.save(path)
+            self._session.save(path, self._completed(self._session.document))
         except InkbetweenError as e:
             self._tell(f"{e}. Your drawing is still here: choose Save As and another place.", "error")
             return False

@@ -316,11 +316,14 @@ class Session(QObject):
         """Open a file; raises InkbetweenError and keeps the open document if that fails."""
         self._replace(with_absolute_references(load(path), path.parent), path, None)
 
-    def save(self, path: Path) -> None:
-        """Write the document; raises StorageError and stays modified if that fails."""
+    def save(self, path: Path, completed: Document | None = None) -> None:
+        """Write the document, or `completed`: the same one with the solver's answers stored in it.
+
+        Raises StorageError and stays modified if that fails.
+        """
         if self._gesture is not None:
             self._gesture.commit()
-        save(with_relative_references(self._document, path.parent), path)
+        save(with_relative_references(completed or self._document, path.parent), path)
         self.path, self.title = path, None
         self.undo_stack.setClean()
         self.fileChanged.emit()

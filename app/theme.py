@@ -157,7 +157,12 @@ QToolButton:hover {{ background: {t.raised}; border-color: {t.line}; }}
 QToolButton:pressed {{ background: {t.line}; }}
 QToolButton:checked {{ background: {t.accent}; color: {t.accent_text}; border-color: {t.accent}; }}
 QToolButton:focus, QPushButton:focus {{ border-color: {t.accent}; }}
-QToolButton[segment="true"] {{ padding: 5px 12px; min-height: 18px; }}
+QToolButton[segment="true"] {{ padding: 5px 6px; min-height: 18px; }}
+QToolButton[picture="true"] {{ background: {t.raised}; border-color: {t.line}; color: {t.muted};
+    font-size: 10px; padding: 2px; }}
+QToolButton[picture="true"]:hover {{ border-color: {t.muted}; }}
+QToolButton[picture="true"]:checked {{ border: 1.5px solid {t.accent}; color: {t.text}; }}
+QLabel[role="badge"] {{ color: {t.warning}; font-size: 11px; }}
 QToolButton[swatch="true"] {{ background: {t.raised}; border-color: {t.line}; padding: 3px; }}
 QWidget#segments {{ background: {t.raised}; border: 1px solid {t.line}; border-radius: 8px; }}
 QPushButton {{ background: {t.raised}; color: {t.text}; border: 1px solid {t.line}; border-radius: 7px;

@@ -25,6 +25,8 @@ class ViewOptions:
         Number of frames shown on either side of the playhead, 0 to 12.
     onion_strength : float
         Opacity of the nearest one, 0.05 to 1.
+    hues : bool
+        Both outlines are tinted along their length, matching parts alike.
     final : bool
         Paint as exported, without keyframes and helpers.
     """
@@ -35,6 +37,7 @@ class ViewOptions:
     onion_before: int = 2
     onion_after: int = 2
     onion_strength: float = 0.5
+    hues: bool = False
     final: bool = False
 
 
@@ -50,6 +53,7 @@ class ViewState(QObject):
         self._options = ViewOptions(
             lines=_one_of(settings.text("view/lines", d.lines), LINES),
             onion=settings.flag("view/onion", d.onion),
+            hues=settings.flag("view/hues", d.hues),
             onion_before=int(settings.number("view/onion_before", d.onion_before, 0, 12)),
             onion_after=int(settings.number("view/onion_after", d.onion_after, 0, 12)),
             onion_strength=settings.number("view/onion_strength", d.onion_strength, 0.05, 1),

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 
 from app.actions import ACTIONS, MENUS, ActionTable
 from app.canvas.canvas import Canvas
+from app.panels.alternatives import AlternativesPanel
 from app.panels.drawing import DrawingPanel
 from app.panels.easing import EasingPanel
 from app.panels.messagebar import MessageBar
@@ -24,6 +25,7 @@ from app.panels.reference import ReferencePanel
 from app.panels.span import SpanPanel
 from app.panels.timeline import Timeline, action_button
 from app.playback import Playback
+from app.preview.alternatives import AlternativesPreview
 from app.preview.spans import SpanPreview
 from app.session import Session
 from app.settings import Settings
@@ -34,7 +36,7 @@ from app.tools.pencil import PencilTool
 from app.tools.select import SelectTool
 from app.view import ViewState
 
-SIDE_WIDTH = 300
+SIDE_WIDTH = 312
 TOOLBOX_WIDTH = 52
 
 
@@ -48,6 +50,7 @@ class Window(QMainWindow):
         self,
         session: Session,
         preview: SpanPreview,
+        ranked: AlternativesPreview,
         view: ViewState,
         playback: Playback,
         settings: Settings,
@@ -64,7 +67,8 @@ class Window(QMainWindow):
             "tool.correspond": CorrespondTool(self.canvas),
         }
         self.timeline = Timeline(session, view, playback, theme, self.table.actions)
-        self.span_panel = SpanPanel(session, view, self.table.actions)
+        self.alternatives_panel = AlternativesPanel(session, preview, ranked, theme)
+        self.span_panel = SpanPanel(session, view, self.table.actions, preview, self.alternatives_panel)
         self.easing_panel = EasingPanel(session, theme)
         self.drawing_panel = DrawingPanel(session, theme, *self._tolerance())
         self.reference_panel = ReferencePanel(session)
@@ -74,7 +78,7 @@ class Window(QMainWindow):
         self._make_menus()
         self.setAcceptDrops(True)
         self.resize(1440, 900)
-        self.setMinimumSize(900, 560)
+        self.setMinimumSize(1000, 560)
 
     # laying out
 
@@ -124,6 +128,7 @@ class Window(QMainWindow):
         outer = QStackedLayout(side)
         outer.setContentsMargins(1, 0, 0, 0)
         inner = QWidget()
+        inner.setFixedWidth(SIDE_WIDTH - 12)  # room for the scroll bar, so that it never covers anything
         column = QVBoxLayout(inner)
         column.setContentsMargins(0, 4, 0, 12)
         column.setSpacing(4)
@@ -144,6 +149,7 @@ class Window(QMainWindow):
         bar = self.statusBar()
         bar.setSizeGripEnabled(False)
         self.hint_label = QLabel()
+        self.hint_label.setMinimumWidth(1)  # a narrow window cuts the hint, not the window's width
         self.place_label = QLabel()
         self.place_label.setMinimumWidth(90)
         self.zoom_label = QLabel()
@@ -197,6 +203,7 @@ class Window(QMainWindow):
         if tool is not self.canvas.tool:
             self.canvas.set_tool(tool)
         self.hint_label.setText(tool.hint)
+        self.hint_label.setToolTip(tool.hint)
         self.canvas.setFocus()
 
     def tell(self, text: str, kind: str = "error") -> None:
@@ -217,7 +224,8 @@ class Window(QMainWindow):
         self.theme = theme
         self.setStyleSheet(style_sheet(theme))
         self.table.set_theme(theme)
-        for part in (self.canvas, self.timeline, self.easing_panel, self.drawing_panel, self.message_bar):
+        panels = (self.alternatives_panel, self.easing_panel, self.drawing_panel)
+        for part in (self.canvas, self.timeline, *panels, self.message_bar):
             part.set_theme(theme)
 
     def closeEvent(self, event: QCloseEvent) -> None:

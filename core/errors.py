@@ -23,3 +23,7 @@ class FileFormatError(InkbetweenError):
 
 class StorageError(InkbetweenError):
     """A file or folder that cannot be read or written; what was on the disk is as it was."""
+
+
+class CancelledError(InkbetweenError):
+    """Work that was stopped because nobody waits for it any more."""

@@ -115,6 +115,7 @@ class Canvas(pg.GraphicsView):
     def _on_view_changed(self) -> None:
         if self._content is not None and self._content.options.arrangement != self.view_state.options.arrangement:
             self._follows_stage = True
+            self.hover = None  # what lay under the pointer lies elsewhere now
         self._on_changed()
 
     def set_theme(self, theme: Theme) -> None:

@@ -38,6 +38,8 @@ class Content:
     before, after : Keyframe or None
         Of the span under the playhead in the active layer.
     plan : SpanPlan or None
+    waiting : bool
+        The plan stands in for one that is being solved.
     t : float or None
         Eased t at the playhead; None outside every span.
     picture : Picture or None
@@ -54,6 +56,7 @@ class Content:
     before: Keyframe | None
     after: Keyframe | None
     plan: SpanPlan | None
+    waiting: bool
     t: float | None
     picture: Picture | None
     others: tuple[tuple[Picture, bool], ...]
@@ -101,6 +104,7 @@ def build_content(session: Session, preview: SpanPreview, plans: PlanCache, opti
         before,
         after,
         plan,
+        plan is not None and before is not None and preview.waiting(before),
         t,
         picture if layer.visible or not options.final else None,
         _others(document, layer.id, frame, plans),

@@ -120,6 +120,12 @@ def anchor_places(content: Content) -> list[tuple[AnchorRef, FloatArray, FloatAr
     return found
 
 
+def is_muted(content: Content, ref: AnchorRef) -> bool:
+    """Whether an anchor is without effect."""
+    pair = content.before.span.pair_of(ref.before, ref.after) if content.before else None
+    return pair is not None and pair.anchors[ref.index].muted
+
+
 def anchor_under(content: Content, camera: Camera, at: QPointF) -> AnchorHit | None:
     """Return the anchor's end under the pointer."""
     best, least = None, ANCHOR_REACH

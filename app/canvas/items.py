@@ -9,20 +9,23 @@ from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPainterPath, 
 from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
 from app.canvas.content import FILM_TIMES, Content
-from app.canvas.hits import anchor_places
+from app.canvas.hits import anchor_places, is_muted
+from app.canvas.lines import HUE_PIECES, MOST_LOOKED_AT, hue_pieces, line_papers, shown_rows
 from app.canvas.papers import AFTER, BEFORE, INBETWEEN, Paper
 from app.painting import Outlines, paint_outlines, paint_picture, to_qcolor
-from core.geometry.outline import FloatArray, arc_lengths, perimeter
+from core.geometry.outline import FloatArray, perimeter
 
 if TYPE_CHECKING:
     from app.canvas.canvas import Canvas
 
 KEY_WIDTH = 1.8
 INBETWEEN_WIDTH = 2.2
+HUE_WIDTH = 3.0
 SKIN_WIDTH = 1.0
+HUES = ("#0072b2", "#56b4e9", "#009e73", "#f0e442", "#e69f00", "#d55e00", "#cc79a7")
+"""The colours of M. Okabe and K. Ito (2008), which people with any kind of colour vision can tell apart."""
+
 FEW_SKIN_VERTICES = 1000
-MOST_LINES = 40
-MOST_LOOKED_AT = 1000
 CLOSEST_VERTICES = 7.0
 """View px: vertices nearer to each other on average are not marked one by one."""
 
@@ -141,11 +144,22 @@ class ShapesItem(CanvasItem):
             keyframe = content.editable(side)
             if keyframe is None or side not in paper.shows:
                 continue
+            if content.options.hues and content.plan is not None:
+                self._draw_hues(painter, content, side, transform)
+                continue
             alone = content.before is None or content.after is None
             held = alone and keyframe.frame != content.frame  # shown, though the playhead is elsewhere
             color = self.canvas.theme.color(side, 0.55 if held else 1.0)
             outlines = [(o.points, o.closed) for o in keyframe.drawing.outlines]
             self.paint_lines(painter, outlines, color, KEY_WIDTH, transform)
+
+    def _draw_hues(self, painter: QPainter, content: Content, side: str, transform: QTransform) -> None:
+        """Draw an outline in pieces, each in the colour of its share of the correspondence."""
+        for link in content.plan.links if content.plan else ():
+            points = link.aligned.left if side == BEFORE else link.aligned.right
+            for i, rows in enumerate(hue_pieces(link)):
+                piece = [(points[rows], False)]
+                self.paint_lines(painter, piece, hue(i), HUE_WIDTH, transform)
 
     def _draw_inbetween(self, painter: QPainter, content: Content, paper: Paper) -> None:
         if content.picture is None or INBETWEEN not in paper.shows:
@@ -179,7 +193,7 @@ class LinesItem(CanvasItem):
         path = QPainterPath()
         for link in content.plan.links if content.plan else ():
             left, right = link.aligned.left, link.aligned.right
-            rows = spread_rows(left, right, link.aligned.closed)
+            rows = shown_rows(link)
             ends = camera.to_view(left[rows], start.offset), camera.to_view(right[rows], end.offset)
             for p, q in zip(*ends, strict=True):
                 path.moveTo(p[0], p[1])
@@ -190,7 +204,11 @@ class LinesItem(CanvasItem):
         camera, theme = self.canvas.camera, self.canvas.theme
         chosen = self.canvas.session.selection.anchor
         for ref, p, q in anchor_places(content):
-            painter.setPen(QPen(theme.color("accent"), 2.4 if ref == chosen else 1.5))
+            pen = QPen(theme.color("accent"), 2.4 if ref == chosen else 1.5)
+            if is_muted(content, ref):
+                pen.setStyle(Qt.PenStyle.DashLine)
+                pen.setColor(theme.color("muted"))
+            painter.setPen(pen)
             a, b = camera.to_view(p, start.offset), camera.to_view(q, end.offset)
             painter.drawLine(QPointF(*a), QPointF(*b))
 
@@ -268,6 +286,8 @@ class LabelsItem(CanvasItem):
             words.append((f"after  frame {content.after.frame}", "after"))
         if INBETWEEN in paper.shows and content.t is not None and self._between(content):
             words.append((f"in-between  frame {content.frame}", "inbetween"))
+        if content.waiting and INBETWEEN in paper.shows and content.plan is not None:
+            words.append((f"solving … ({content.plan.paths.method} shown)", "muted"))
         return words
 
     def _between(self, content: Content) -> bool:
@@ -297,11 +317,11 @@ class ToolItem(CanvasItem):
             self.canvas.tool.paint(painter)
 
 
-def line_papers(content: Content) -> list[tuple[Paper, Paper]]:
-    """Return from which paper to which the correspondence is drawn."""
-    starts = [p for p in content.papers if BEFORE in p.shows]
-    ends = [p for p in content.papers if AFTER in p.shows]
-    return [(p, p) for p in starts if p in ends] or list(zip(starts, ends, strict=False))
+def hue(piece: int) -> QColor:
+    """Return the colour of a piece of the correspondence."""
+    place = piece / HUE_PIECES * len(HUES)
+    i = int(place)
+    return blend(QColor(HUES[i]), QColor(HUES[(i + 1) % len(HUES)]), place - i)
 
 
 def spaced(points: FloatArray, scale: float) -> FloatArray:
@@ -310,17 +330,6 @@ def spaced(points: FloatArray, scale: float) -> FloatArray:
         return points
     wide, high = np.ptp(points[:: len(points) // 256], axis=0) * scale
     return points[:: max(1, int(len(points) / (1.5 * max(wide + high, 1.0))))]
-
-
-def spread_rows(left: FloatArray, right: FloatArray, closed: bool) -> FloatArray:
-    """Return the indices of at most MOST_LINES rows, evenly spread along both outlines."""
-    if len(left) <= MOST_LINES:
-        return np.arange(len(left))
-    step = -(-len(left) // MOST_LOOKED_AT)
-    lengths = [arc_lengths(side[::step], closed=closed) for side in (left, right)]
-    along = sum(s[: len(left[::step])] / max(float(s[-1]), 1e-12) for s in lengths)
-    rows = np.searchsorted(along, np.linspace(0, float(along[-1]), MOST_LINES)).clip(0, len(along) - 1)
-    return step * np.unique(rows)
 
 
 def vertex_spacing(points: FloatArray) -> float:

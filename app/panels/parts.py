@@ -9,6 +9,7 @@ from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
     QLabel,
+    QPushButton,
     QSizePolicy,
     QSpinBox,
     QToolButton,
@@ -128,3 +129,13 @@ def swatch_icon(color: QColor | None, line: QColor, size: int = 18) -> QIcon:
     painter.end()
     picture.setDevicePixelRatio(2)
     return QIcon(picture)
+
+
+def flat_button(text: str, tip: str) -> QPushButton:
+    """Return a button that is only its words, for what is done seldom."""
+    button = QPushButton(text)
+    button.setProperty("flat", True)
+    button.setFlat(True)
+    button.setToolTip(tip)
+    button.setCursor(Qt.CursorShape.PointingHandCursor)
+    return button

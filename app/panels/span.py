@@ -1,18 +1,20 @@
 """The span panel: how vertices travel between the two keyframes around the playhead."""
 
-from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QWidget
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QProgressBar, QPushButton, QWidget
 
-from app.panels.parts import Section, Segments, label, number_field
+from app.panels.parts import Section, Segments, flat_button, label, number_field
+from app.preview.spans import SpanPreview
 from app.session import Session
 from app.view import ViewState
-from core.model.document import MOST_TURNS
+from core.model.document import MOST_TURNS, Keyframe
 from core.model.edits import clear_anchors, set_span
 
 METHODS = (
     ("linear", "linear", "Every vertex goes straight: fast and plain; what turns gets smaller on the way"),
     ("intrinsic", "intrinsic", "Edge lengths and angles change evenly: limbs bend and keep their size"),
+    ("rigid", "rigid", "The inside stays as stiff as it can: areas hold, thick and thin alike"),
+    ("auto", "auto", "The better of rigid and intrinsic, by their certificates"),
 )
 LINES = (
     ("all", "all", "Draw the lines of the whole correspondence"),
@@ -25,9 +27,17 @@ class SpanPanel(QWidget):
     """Method, extra turns and the correspondence of the span under the playhead."""
 
     def __init__(
-        self, session: Session, view: ViewState, actions: dict[str, QAction], parent: QWidget | None = None
+        self,
+        session: Session,
+        view: ViewState,
+        actions: dict[str, QAction],
+        preview: SpanPreview,
+        alternatives: QWidget,
+        parent: QWidget | None = None,
     ) -> None:
+        """`alternatives` is the panel shown below the correspondence."""
         super().__init__(parent)
+        self.alternatives, self.preview = alternatives, preview
         self.session, self.view_state = session, view
         self._method_section()
         self._correspondence_section(actions)
@@ -38,6 +48,7 @@ class SpanPanel(QWidget):
         row.addWidget(self.correspondence_section)
         for signal in (session.documentChanged, session.frameChanged, session.layerChanged, view.changed):
             signal.connect(self._refresh)
+        preview.planned.connect(self._refresh)
         self._refresh()
 
     def _method_section(self) -> None:
@@ -59,6 +70,20 @@ class SpanPanel(QWidget):
         self.compare.setToolTip("Show linear and intrinsic beside each other, at t = 0, 0.2 ... 1")
         self.compare.clicked.connect(lambda on: self.view_state.set(arrangement="compare" if on else "overlaid"))
         self.span_section.add_row("extra turns", self.turns, self.compare)
+        self.repair = QCheckBox("repair crossings")
+        self.repair.setToolTip("Bend the in-betweens just as far as needed, so that none crosses itself")
+        self.repair.clicked.connect(self._on_repair)
+        self.progress = QProgressBar()
+        self.progress.setTextVisible(False)
+        self.progress.setFixedHeight(6)
+        self.progress.setRange(0, 100)
+        self.stop = flat_button("Stop", "Leave this span unrepaired for now")
+        self.stop.clicked.connect(self._on_stop)
+        row = QHBoxLayout()
+        for widget in (self.repair, self.progress, self.stop):
+            row.addWidget(widget)
+        self.span_section.box.addLayout(row)
+        self.preview.progressed.connect(lambda share: self.progress.setValue(round(100 * share)))
 
     def _correspondence_section(self, actions: dict[str, QAction]) -> None:
         self.correspondence_section = Section("Correspondence")
@@ -66,22 +91,26 @@ class SpanPanel(QWidget):
         self.lines.chosen.connect(lambda value: self.view_state.set(lines=value))
         self.correspondence_section.box.addWidget(self.lines)
         row = QHBoxLayout()
-        self.add = _flat_button("Add anchors (C)", "Take the correspond tool: drag from outline to outline")
+        self.add = flat_button("Add anchors (C)", "Take the correspond tool: drag from outline to outline")
         self.add.clicked.connect(actions["tool.correspond"].trigger)
-        self.clear = _flat_button("Clear anchors", "Forget every pair that you fixed in this span")
+        self.clear = flat_button("Clear anchors", "Forget every pair that you fixed in this span")
         self.clear.clicked.connect(self._on_clear)
         row.addWidget(self.add)
         row.addStretch(1)
         row.addWidget(self.clear)
         self.correspondence_section.box.addLayout(row)
+        self.correspondence_section.box.addWidget(self.alternatives)
 
     def _refresh(self, *_: object) -> None:
         before, after = self.session.span_keyframes()
         there = before is not None and after is not None
-        for widget in (self.methods, self.turns, self.compare, self.add):
+        for widget in (self.methods, self.turns, self.compare, self.add, self.repair):
             widget.setEnabled(there)
         self.lines.set_value(self.view_state.options.lines)
         self.compare.setChecked(self.view_state.options.arrangement == "compare")
+        repairing = there and before.span.repair and self.preview.waiting(before)
+        self.progress.setVisible(repairing)
+        self.stop.setVisible(repairing)
         if not there or before is None or after is None:
             self.span_section.title.setText("SPAN")
             self.about.setText(self._advice())
@@ -91,7 +120,8 @@ class SpanPanel(QWidget):
         span = before.span
         self.span_section.title.setText(f"SPAN {before.frame} TO {after.frame}")
         self.methods.set_value(span.method)
-        self.about.setText(next(tip for value, _, tip in METHODS if value == span.method))
+        self.repair.setChecked(span.repair)
+        self.about.setText(self._about(before, after))
         if self.turns.value() != span.turns:
             self.turns.setValue(span.turns)
         self.turns.setEnabled(span.method != "linear")
@@ -100,6 +130,16 @@ class SpanPanel(QWidget):
             f"{count} anchor{'' if count == 1 else 's'}" if count else "automatic"
         )
         self.clear.setEnabled(bool(span.pairs))
+
+    def _about(self, before: Keyframe, after: Keyframe) -> str:
+        """Say what the method does; of auto what it chose, and what did not go as asked."""
+        span = before.span
+        plan = self.preview.plan(before, after)
+        if self.preview.waiting(before):
+            what = "the repair" if span.repair else span.method
+            return f"Solving {what}; until then {plan.paths.method} is shown."
+        tip = next(tip for value, _, tip in METHODS if value == span.method)
+        return ". ".join((plan.paths.reason or tip, *plan.paths.notes))
 
     def _advice(self) -> str:
         count = len(self.session.layer.keyframes)
@@ -118,6 +158,16 @@ class SpanPanel(QWidget):
         if frame is not None:
             self.session.apply("Change Method", set_span, self.session.layer.id, frame, method=method)
 
+    def _on_repair(self, on: bool) -> None:
+        frame = self._frame()
+        if frame is not None:
+            label = "Repair Crossings" if on else "Leave Crossings"
+            self.session.apply(label, set_span, self.session.layer.id, frame, repair=on)
+
+    def _on_stop(self) -> None:
+        self.preview.cancel_slow()
+        self._on_repair(False)
+
     def _on_turns(self, turns: int) -> None:
         frame = self._frame()
         if frame is not None:
@@ -129,12 +179,3 @@ class SpanPanel(QWidget):
         frame = self._frame()
         if frame is not None:
             self.session.apply("Clear Anchors", clear_anchors, self.session.layer.id, frame)
-
-
-def _flat_button(text: str, tip: str) -> QPushButton:
-    button = QPushButton(text)
-    button.setProperty("flat", True)
-    button.setFlat(True)
-    button.setToolTip(tip)
-    button.setCursor(Qt.CursorShape.PointingHandCursor)
-    return button

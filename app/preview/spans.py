@@ -1,7 +1,11 @@
 """Plans of spans for the canvas: at once with what is known, better as soon as the worker has solved it."""
 
+import threading
+import time
 from collections import OrderedDict
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -9,18 +13,27 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from app.preview.worker import NewestWins
 from core.correspondence.matching import match, match_quick
 from core.correspondence.pairing import Correspondence
-from core.errors import InkbetweenError
-from core.model.document import Keyframe
+from core.errors import CancelledError, InkbetweenError
+from core.geometry.outline import perimeter
+from core.model.document import Document, Keyframe, Span
 from core.model.drawing import Drawing, Outline
+from core.model.edits import store_answer
 from core.model.inbetweens import PairMatch, Rows, SpanMatch, SpanPlan, paired_outlines, plan_span
 
 PAUSE_MS = 40
 """The worker starts when nothing new was asked for this long: while a vertex is dragged, the pairs stay put."""
 
+QUICK_METHODS = ("linear", "intrinsic")
+QUICK_SECONDS = 0.012
+"""A plan that takes no longer is made at every step of a drag."""
+
 MOST_DRAGGED_ROWS = 6000
 MOST_KEPT = 256
 
+Progress = Callable[[float], None]
 Pairs = tuple[tuple[int, int], ...]
+PairRef = tuple[int, int, int]
+"""The frame that a span begins at, and the ids of two outlines."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,21 +80,65 @@ class _Solved:
     rows: Rows
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _PlanTask:
+    """A span to be planned, with its solved correspondences."""
+
+    before: Keyframe
+    after: Keyframe
+    span: Span
+    solved: tuple[_Solved, ...]
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        drawings, s = (id(self.before.drawing), id(self.after.drawing)), self.span
+        return *drawings, s.method, s.turns, s.repair, *(id(x) for x in self.solved)
+
+    def likeness(self) -> tuple[object, ...]:
+        """Equal for plans that take about as long."""
+        return self.span.method, self.span.repair, *(x.task.likeness() for x in self.solved)
+
+    def solve(self, progress: Progress | None = None, cancelled: Callable[[], bool] | None = None) -> "_Planned":
+        began = time.perf_counter()
+        pairs = (PairMatch(s.task.before.id, s.task.after.id, s.correspondence, s.rows) for s in self.solved)
+        match = SpanMatch(tuple(pairs))
+        plan = plan_span(
+            self.before.drawing, self.after.drawing, self.span, match, progress=progress, cancelled=cancelled
+        )
+        return _Planned(self, plan, time.perf_counter() - began)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Planned:
+    """A plan; it keeps its task, so that no other object can take the ids in its key."""
+
+    task: _PlanTask
+    plan: SpanPlan
+    seconds: float
+
+
 class SpanPreview(QObject):
     """Gives plans without ever making the window wait; `planned` says that a better one is there."""
 
     planned = Signal()
+    progressed = Signal(float)
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._exact: OrderedDict[object, _Solved] = OrderedDict()
         self._alike: OrderedDict[object, _Solved] = OrderedDict()
-        self._plans: OrderedDict[object, tuple[object, SpanPlan]] = OrderedDict()
+        self._plans: OrderedDict[object, _Planned] = OrderedDict()
+        self._slow: dict[int, _PlanTask] = {}
+        self._seconds: dict[object, float] = {}
+        self._cancel = threading.Event()
         self._pairs: OrderedDict[object, tuple[object, Pairs]] = OrderedDict()
         self._wanted: OrderedDict[object, _Task] = OrderedDict()
+        self._trial: tuple[PairRef, Correspondence] | None = None
         self._coarse: tuple[_Solved, bool, _Solved] | None = None
         self._worker = NewestWins(self)
         self._worker.finished.connect(self._on_solved)
+        self._planner = NewestWins(self)
+        self._planner.finished.connect(self._on_planned)
         self._pause = QTimer(self)
         self._pause.setSingleShot(True)
         self._pause.setInterval(PAUSE_MS)
@@ -90,31 +147,101 @@ class SpanPreview(QObject):
     @property
     def settled(self) -> bool:
         """Whether every plan given so far is the final one."""
-        return not self._wanted and self._worker.idle
+        return not self._wanted and not self._slow and self._worker.idle and self._planner.idle
 
     def stop(self) -> None:
         self._pause.stop()
+        self._cancel.set()
         self._worker.stop()
+        self._planner.stop()
 
     def plan(self, before: Keyframe, after: Keyframe, method: str | None = None) -> SpanPlan:
-        """Return a plan of the span, with another method if one is named."""
+        """Return a plan of the span, with another method if one is named.
+
+        While a slow one (rigid, auto, a repair) is being solved, it is intrinsic's, or that of the method without
+        the repair; `waiting` tells.
+        """
         span = before.span if method is None else replace(before.span, method=method)
-        solved = [self._solved(task) for task in self._tasks(before, after)]
-        parts = (before.drawing, after.drawing, solved)  # kept, so that no other object can take their ids
-        key = (id(parts[0]), id(parts[1]), span.method, span.turns, *(id(s) for s in solved))
-        found = self._plans.get(key)
+        wanted = self._wanted_plan(before, after, span)
+        found = self._plans.get(wanted.key)
+        if found is None and self._is_quick(wanted):
+            found = self._keep_plan(wanted.solve())
+        if method is None and found is not None:
+            self._slow.pop(before.frame, None)
         if found is None:
-            pairs = (PairMatch(s.task.before.id, s.task.after.id, s.correspondence, s.rows) for s in solved)
-            plan = plan_span(before.drawing, after.drawing, span, SpanMatch(tuple(pairs)))
-            found = self._plans[key] = (parts, plan)
-        _touch(self._plans, key)
-        return found[1]
+            self._slow[wanted.before.frame] = wanted
+            self._pause.start()
+            quick = span.method if span.method in QUICK_METHODS else "intrinsic"
+            return self._stand_in(before, after, quick)
+        _touch(self._plans, wanted.key)
+        return found.plan
+
+    def waiting(self, before: Keyframe) -> bool:
+        """Whether what is shown of the span that begins here stands in for a plan that is being solved."""
+        return before.frame in self._slow
+
+    def _stand_in(self, before: Keyframe, after: Keyframe, method: str) -> SpanPlan:
+        wanted = self._wanted_plan(before, after, replace(before.span, method=method, repair=False))
+        found = self._plans.get(wanted.key) or self._keep_plan(wanted.solve())
+        _touch(self._plans, wanted.key)
+        return found.plan
+
+    def _wanted_plan(self, before: Keyframe, after: Keyframe, span: Span) -> "_PlanTask":
+        return _PlanTask(before, after, span, tuple(self._solved(task) for task in self._tasks(before, after)))
+
+    def _is_quick(self, wanted: "_PlanTask") -> bool:
+        """Whether a plan can be made between two frames of a drag: as the last one like it could."""
+        span = wanted.span
+        if span.repair:
+            return False
+        return span.method in QUICK_METHODS or self._seconds.get(wanted.likeness(), 1.0) < QUICK_SECONDS
+
+    def _keep_plan(self, made: "_Planned") -> "_Planned":
+        self._plans[made.task.key] = made
+        self._seconds[made.task.likeness()] = made.seconds
+        return made
+
+    def main_pair(self, before: Keyframe, after: Keyframe) -> tuple[Outline, Outline] | None:
+        """Return the pair of outlines that a person means by "the" correspondence: that of the longest outline."""
+        pairs = self._paired(before.drawing, after.drawing, before)
+        outlines = [(before.drawing.outline(i), after.drawing.outline(j)) for i, j in pairs]
+        return max(outlines, key=lambda ab: perimeter(ab[0].points, closed=ab[0].closed), default=None)
+
+    def correspondence(self, before: Keyframe, after: Keyframe, pair: tuple[int, int]) -> Correspondence:
+        """Return the correspondence of two outlines that the canvas shows now."""
+        for task in self._tasks(before, after):
+            if (task.before.id, task.after.id) == pair:
+                return self._solved(task).correspondence
+        raise KeyError(f"outlines {pair} are no pair")
+
+    def try_out(self, ref: PairRef | None, correspondence: Correspondence | None = None) -> None:
+        """Show the in-betweens of another correspondence for a while, or, without one, the real ones again."""
+        trial = (ref, correspondence) if ref is not None and correspondence is not None else None
+        if trial != self._trial:
+            self._trial = trial
+            self.planned.emit()
+
+    def with_answers(self, document: Document) -> Document:
+        """Return the document with every answer of the solver that is known stored in its spans.
+
+        A later version of the solver may answer differently; a film that was saved shall not change with it.
+        """
+        for layer in document.layers:
+            for before, after in pairwise(layer.keyframes):
+                for task in self._tasks(before, after):
+                    solved = self._exact.get(task.key())
+                    if task.kept is None and solved is not None:
+                        ids = task.before.id, task.after.id
+                        document = store_answer(document, layer.id, before.frame, *ids, solved.correspondence)
+        return document
 
     def _tasks(self, before: Keyframe, after: Keyframe) -> list[_Task]:
         tasks = []
         for i, j in self._paired(before.drawing, after.drawing, before):
             made = before.span.pair_of(i, j)
             kept = made.correspondence if made else None
+            if self._trial is not None and self._trial[0] == (before.frame, i, j):
+                kept = self._trial[1]
             a, b = before.drawing.outline(i), after.drawing.outline(j)
             tasks.append(_Task(a, b, made.held if made else (), (before.frame, after.frame), kept))
         return tasks
@@ -177,6 +304,15 @@ class SpanPreview(QObject):
         tasks = tuple(self._wanted.values())
         if tasks:
             self._worker.submit(lambda: _solve(tasks))
+        elif self._slow:
+            self._cancel.set()  # of what is solved now, the span has changed since
+            self._cancel = cancel = threading.Event()
+            wanted = tuple(self._slow.values())
+            self._planner.submit(lambda: _plan(wanted, self.progressed.emit, cancel.is_set))
+
+    def cancel_slow(self) -> None:
+        """Stop solving; what stands in stays until something changes."""
+        self._cancel.set()
 
     def _on_solved(self, result: object) -> None:
         if isinstance(result, Exception):
@@ -188,6 +324,30 @@ class SpanPreview(QObject):
                 if waiting is not None and waiting.key() == solved.task.key():
                     del self._wanted[solved.task.likeness()]
             self.planned.emit()
+            if self._slow:
+                self._pause.start()
+
+    def _on_planned(self, result: object) -> None:
+        if isinstance(result, Exception):
+            raise result
+        if isinstance(result, list):
+            for made in result:
+                self._keep_plan(made)
+                _touch(self._plans, made.task.key)
+                waiting = self._slow.get(made.task.before.frame)
+                if waiting is not None and waiting.key == made.task.key:
+                    del self._slow[made.task.before.frame]
+            self.planned.emit()
+
+
+def _plan(wanted: tuple["_PlanTask", ...], progress: Progress, cancelled: Callable[[], bool]) -> list["_Planned"]:
+    made = []
+    for task in wanted:
+        try:
+            made.append(task.solve(progress, cancelled))
+        except CancelledError:
+            break
+    return made
 
 
 def _solve(tasks: tuple[_Task, ...]) -> list[_Solved]:

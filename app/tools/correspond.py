@@ -7,12 +7,13 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QKeyEvent, QPainter, QPen
 
 from app.canvas.hits import AnchorHit, OutlineHit, anchor_places, anchor_under, outline_under
+from app.canvas.lines import arrow, line_papers, line_under, start_marks
 from app.canvas.papers import AFTER, BEFORE
 from app.canvas.tool import Pointer, Tool
 from app.session import AnchorRef, Gesture, Selection
 from core.geometry.outline import points_at
 from core.model.document import Anchor, Document
-from core.model.edits import add_anchor, delete_anchor, move_anchor
+from core.model.edits import add_anchor, delete_anchor, move_anchor, set_muted
 
 TARGET_REACH = 26.0
 """View px: while an end is dragged it sticks to the outline from this far, so that the hand may be loose."""
@@ -34,8 +35,8 @@ class _Drag:
 class CorrespondTool(Tool):
     name, icon, shortcut = "Correspond", "correspond", "C"
     hint = (
-        "Correspond: drag from a point of one outline to its point on the other. "
-        "Drag an end along its outline. Shift: no snapping. Delete: take the chosen anchor away."
+        "Correspond: drag from outline to outline, or an end along its outline. Shift: no snapping. "
+        "Double click a line: anchor it. Delete: take away. M: mute."
     )
     cursor = Qt.CursorShape.PointingHandCursor
     shows_vertices = True
@@ -50,7 +51,7 @@ class CorrespondTool(Tool):
         return self._drag is not None
 
     def wants_key(self, event: QKeyEvent) -> bool:
-        if event.key() in (Qt.Key.Key_Delete, Qt.Key.Key_Backspace):
+        if event.key() in (Qt.Key.Key_Delete, Qt.Key.Key_Backspace, Qt.Key.Key_M):
             return self.canvas.session.selection.anchor is not None
         return super().wants_key(event)
 
@@ -112,15 +113,16 @@ class CorrespondTool(Tool):
             self.canvas.session.problem.emit("These anchors would cross, so this one was not made.")
         elif drag.landed:
             drag.gesture.commit()
-            self._select_made(drag)
+            if drag.old is None:
+                self._select_made()
         else:
             drag.gesture.cancel()
         self.canvas.refresh()
 
-    def _select_made(self, drag: _Drag) -> None:
+    def _select_made(self) -> None:
         """Select the anchor that was just made, so that Delete takes it away again."""
         before = self.canvas.content.before
-        if drag.old is None and before is not None and before.span.pairs:
+        if before is not None and before.span.pairs:
             pair = before.span.pairs[-1]
             index = len(pair.anchors) - 1
             ref = AnchorRef(before.frame, pair.before, pair.after, index)
@@ -142,7 +144,21 @@ class CorrespondTool(Tool):
             return True
         if event.key() in (Qt.Key.Key_Delete, Qt.Key.Key_Backspace):
             return delete_selected_anchor(self.canvas.session)
+        if event.key() == Qt.Key.Key_M:
+            return mute_selected_anchor(self.canvas.session)
         return False
+
+    def double_click(self, pointer: Pointer) -> None:
+        """Make the line of the correspondence under the pointer an anchor."""
+        self.cancel()
+        line = line_under(self.canvas.content, self.canvas.camera, pointer.at)
+        if line is None:
+            return
+        session = self.canvas.session
+        pair, anchor = (line.before, line.after), Anchor(*line.places)
+        frame = self.canvas.content.before.frame
+        if session.apply("Add Anchor", add_anchor, session.layer.id, frame, *pair, anchor):
+            self._select_made()
 
     def cancel(self) -> None:
         drag, self._drag = self._drag, None
@@ -152,6 +168,7 @@ class CorrespondTool(Tool):
         self.canvas.refresh()
 
     def paint(self, painter: QPainter) -> None:
+        self._paint_starts(painter)
         drag = self._drag
         if drag is None or (drag.landed and not drag.refused):
             return
@@ -163,6 +180,17 @@ class CorrespondTool(Tool):
         painter.setBrush(color)
         painter.drawEllipse(start, 4, 4)
         painter.drawEllipse(drag.hand, 4, 4)
+
+    def _paint_starts(self, painter: QPainter) -> None:
+        """Show where the correspondence begins on both outlines, and which way it runs."""
+        content, theme = self.canvas.content, self.canvas.theme
+        for start, end in line_papers(content):
+            for mark in start_marks(content):
+                paper = start if mark.side == BEFORE else end
+                at = QPointF(*self.canvas.camera.to_view(mark.place, paper.offset))
+                painter.setPen(QPen(theme.color("stage"), 1.2))
+                painter.setBrush(theme.color(mark.side))
+                painter.drawPolygon(arrow(at, mark.direction, 9.0))
 
     def _outline_hit(self, pointer: Pointer) -> OutlineHit | None:
         return outline_under(
@@ -222,4 +250,17 @@ def delete_selected_anchor(session) -> bool:
         ref.index,
         selection=Selection(),
     )
+    return True
+
+
+def mute_selected_anchor(session) -> bool:
+    """Mute the selected anchor, or let it take effect again; False if none is selected."""
+    ref = session.selection.anchor
+    if ref is None:
+        return False
+    pair = session.layer.keyframe_at(ref.frame).span.pair_of(ref.before, ref.after)
+    muted = not pair.anchors[ref.index].muted
+    label = "Mute Anchor" if muted else "Unmute Anchor"
+    places = (ref.frame, ref.before, ref.after, ref.index)
+    session.apply(label, set_muted, session.layer.id, *places, muted)
     return True

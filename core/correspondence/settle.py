@@ -122,6 +122,7 @@ def _enough(u: FloatArray, v: FloatArray, wanted: npt.NDArray[np.bool_], toleran
     while True:
         at = np.flatnonzero(chosen)
         miss = np.abs(np.interp(u, u[at], v[at]) - v)
+        miss[at] = 0.0  # knots on an edge without length share their share, and would be missed for ever
         if miss.max() <= tolerance:
             return at
         piece = np.searchsorted(at, np.arange(len(u)), side="right")

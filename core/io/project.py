@@ -65,11 +65,12 @@ class _Pair(_Struct, omit_defaults=True):
     chosen: bool = False
 
 
-class _Span(_Struct):
+class _Span(_Struct, omit_defaults=True):
     method: str
     easing: tuple[Number, Number, Number, Number]
     turns: int
     pairs: list[_Pair]
+    repair: bool = False
 
 
 class _Outline(_Struct):
@@ -224,8 +225,8 @@ def decode(content: bytes) -> Document:
     """Return the document in the bytes of a project file; raises FileFormatError that names the place."""
     try:
         head = msgspec.json.decode(content, type=_Head)
-    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as e:
-        raise FileFormatError(f"it is no Inkbetween project, or it is damaged ({e})") from None
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+        raise FileFormatError("it is no Inkbetween project, or it is damaged") from None
     if head.format != FORMAT:
         raise FileFormatError("it is no Inkbetween project")
     if head.version > VERSION:
@@ -265,6 +266,7 @@ def _keyframe_to_file(keyframe: Keyframe) -> _Keyframe:
             (float(easing.x1), float(easing.y1), float(easing.x2), float(easing.y2)),
             int(span.turns),
             [_pair_to_file(p) for p in span.pairs],
+            bool(span.repair),
         ),
         _Reference(keyframe.reference.path, float(keyframe.reference.opacity)) if keyframe.reference else None,
     )
@@ -311,7 +313,8 @@ def _keyframe_from_file(keyframe: _Keyframe, where: str) -> Keyframe:
         drawing = Drawing(tuple(outlines), Style(style.fill, style.stroke, style.width))
     pairs = [_pair_from_file(p, f"{where}.span.pairs[{i}]") for i, p in enumerate(keyframe.span.pairs)]
     with _place(f"{where}.span"):
-        span = Span(keyframe.span.method, Easing(*keyframe.span.easing), keyframe.span.turns, tuple(pairs))
+        s = keyframe.span
+        span = Span(s.method, Easing(*s.easing), s.turns, tuple(pairs), s.repair)
     with _place(f"{where}.reference"):
         kept = keyframe.reference
         reference = Reference(kept.path, kept.opacity) if kept else None

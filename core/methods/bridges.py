@@ -56,7 +56,11 @@ class Bridge:
 
 
 def connect(
-    a: ComplexArray, b: ComplexArray, rows: Sequence[slice], outlines: Sequence[Headings]
+    a: ComplexArray,
+    b: ComplexArray,
+    rows: Sequence[slice],
+    outlines: Sequence[Headings],
+    bodies: Sequence[int] | None = None,
 ) -> tuple[list[Headings], list[Bridge]]:
     """Join the outlines of a drawing to one tree, from the longest on, each to the nearest one joined so far.
 
@@ -66,6 +70,8 @@ def connect(
         Vertices of all outlines, px.
     rows, outlines : sequences of slice and of Headings
         The outlines.
+    bodies : sequence of int, optional
+        Outlines of equal number are joined to each other before all others, whatever lies between them.
 
     Returns
     -------
@@ -79,24 +85,27 @@ def connect(
     if not found[root].known:
         found[root] = found[root].carried(0.0)
     bridges = []
-    for k, carrier in _tree(a, b, rows, root):
+    for k, carrier in _tree(a, b, rows, root, bodies):
         bridge = _bridge(a, b, rows[k], found[k].vertex_shares(), rows[carrier], found[carrier])
         found[k] = found[k].following(bridge.mean_turn)
         bridges.append(bridge)
     return found, bridges
 
 
-def _tree(a: ComplexArray, b: ComplexArray, rows: Sequence[slice], root: int) -> Iterator[tuple[int, int]]:
+def _tree(
+    a: ComplexArray, b: ComplexArray, rows: Sequence[slice], root: int, bodies: Sequence[int] | None
+) -> Iterator[tuple[int, int]]:
     """Pairs (outline, its carrier), nearest first: a minimum spanning tree by the gaps in both keyframes."""
     probes = np.stack([np.linspace(r.start, r.stop - 1, PROBES).astype(np.intp) for r in rows])
     left, right = a[probes], b[probes]
     gap = np.full(len(rows), np.inf)
     carrier = np.full(len(rows), root)
+    body = np.arange(len(rows)) if bodies is None else np.asarray(bodies)
     free = np.arange(len(rows)) != root
     k = root
     for _ in range(len(rows) - 1):
         nearer = _gaps(left, k) + _gaps(right, k)
-        nearest = nearer.min(axis=(1, 2))
+        nearest = np.where(body == body[k], -1.0, nearer.min(axis=(1, 2)))
         carrier[nearest < gap] = k
         gap = np.minimum(gap, nearest)
         k = int(np.where(free, gap, np.inf).argmin())

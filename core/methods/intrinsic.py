@@ -5,15 +5,16 @@ with another closure, see docs/decisions/0002-intrinsic-closure.md.
 """
 
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from core.geometry.outline import FloatArray
-from core.methods.bridges import Bridge, connect
-from core.methods.headings import TURN, ComplexArray, Headings, headings, joined, shortest
-from core.methods.placement import Placement, place
+from core.methods.assembly import Assembly
+from core.methods.bridges import Bridge
+from core.methods.headings import ComplexArray, Headings, joined
+from core.methods.placement import Placement
 
 CELLS = 24576
 """Vertices times frames computed in one go: few enough for the work arrays (1.4 MB) to stay in the cache."""
@@ -97,47 +98,49 @@ class IntrinsicPaths:
     placement: Placement
 
     @classmethod
-    def of(cls, pairs: Sequence[tuple[FloatArray, FloatArray, bool]], *, turns: int = 0) -> "IntrinsicPaths":
-        """Plan the paths of outlines (left (k, 2), right (k, 2), closed); `turns` are added to the shortest."""
-        a = _complex([left for left, _, _ in pairs])
-        b = _complex([right for _, right, _ in pairs])
-        stops = np.cumsum([len(left) for left, _, _ in pairs]).tolist()
-        rows = [slice(stop - len(left), stop) for stop, (left, _, _) in zip(stops, pairs, strict=True)]
-        closed = [c for _, _, c in pairs]
-        found = [headings(a[r], b[r], closed=c) for r, c in zip(rows, closed, strict=True)]
-        found, bridges = connect(a, b, rows, found)
-        whole = joined(found)
-        extra = shortest(whole.mean_turn()) + TURN * turns
+    def of(cls, assembly: Assembly) -> "IntrinsicPaths":
+        """Plan the paths of the outlines of a drawing."""
+        whole = joined(assembly.outlines)
+        rings = zip(assembly.rows, assembly.outlines, assembly.closed, strict=True)
         return cls(
-            np.stack([whole.start, whole.start + whole.turn + extra]) / 2,
+            np.stack([whole.start, whole.start + whole.turn]) / 2,
             np.stack([whole.before, whole.after]),
-            tuple(rows),
-            tuple(Ring.of(r, h) for r, h, c in zip(rows, found, closed, strict=True) if c),
-            tuple(bridge.turned(extra) for bridge in bridges),
-            place(a, b, _vertex_shares(found), whole.mean_turn() + extra),
+            assembly.rows,
+            tuple(Ring.of(r, h) for r, h, closed in rings if closed),
+            assembly.bridges,
+            assembly.placement,
         )
 
     def evaluate(self, t: FloatArray) -> FloatArray:
         """Vertices at the times `t` (T,), as (T, n, 2) in px."""
+        frames = self._by_few(t, self._fill)
+        return frames.view(np.float64).reshape(*frames.shape, 2)
+
+    def forms(self, t: FloatArray) -> ComplexArray:
+        """Vertices (T, n) of every outline on its own, its first vertex in the origin."""
+        return self._by_few(t, self._form)
+
+    def _by_few(self, t: FloatArray, fill: Callable[[ComplexArray, FloatArray], None]) -> ComplexArray:
         n = self.lengths.shape[1]
         frames = np.zeros((len(t), n), dtype=np.complex128)
         step = max(1, CELLS // n)
-        path = self.placement.path(t)
         for k in range(0, len(t), step):
-            few = slice(k, k + step)
-            self._fill(frames[few], t[few], path[few])
-        return frames.view(np.float64).reshape(len(t), n, 2)
+            fill(frames[k : k + step], t[k : k + step])
+        return frames
 
-    def _fill(self, frames: ComplexArray, t: FloatArray, path: ComplexArray) -> None:
+    def _fill(self, frames: ComplexArray, t: FloatArray) -> None:
+        self._form(frames, t)
+        for bridge in self.bridges:
+            frames[:, bridge.carried] += bridge.shift(frames, t)[:, None]
+        frames += (self.placement.path(t) - frames @ self.placement.weights)[:, None]
+
+    def _form(self, frames: ComplexArray, t: FloatArray) -> None:
         work = _Work.of(*frames.shape)
         self._edges(t, work)
         for ring in self.rings:
             ring.close(work)
         for rows in self.outlines:
             np.cumsum(work.edges[:, rows.start : rows.stop - 1], axis=1, out=frames[:, rows.start + 1 : rows.stop])
-        for bridge in self.bridges:
-            frames[:, bridge.carried] += bridge.shift(frames, t)[:, None]
-        frames += (path - frames @ self.placement.weights)[:, None]
 
     def _edges(self, t: FloatArray, work: "_Work") -> None:
         """Fill in the edge vectors and their lengths, not yet closed.
@@ -191,18 +194,6 @@ class _Kept(threading.local):
 
 
 _kept = _Kept()
-
-
-def _complex(outlines: list[FloatArray]) -> ComplexArray:
-    p = np.concatenate(outlines)
-    z: ComplexArray = p[:, 0] + 1j * p[:, 1]
-    return z
-
-
-def _vertex_shares(outlines: Sequence[Headings]) -> FloatArray:
-    """How much of the drawing each vertex stands for, 1 in all."""
-    shares = np.concatenate([h.vertex_shares() * h.perimeters for h in outlines])
-    return shares / shares.sum() if shares.any() else np.full(len(shares), 1 / len(shares))
 
 
 def _compliance(headings: Headings) -> FloatArray:

@@ -44,7 +44,8 @@ class Placement:
         if self.arm == 0:
             return straight
         at, end = (np.exp(1j * s * self.turn) * (1 + (self.scale - 1) * s) for s in (t, 1.0))
-        return straight + self.arm * ((1 - t) - at + t * end)
+        bent: ComplexArray = straight + self.arm * ((1 - t) - at + t * end)
+        return bent
 
 
 def place(a: ComplexArray, b: ComplexArray, lengths: FloatArray, turn: float) -> Placement:

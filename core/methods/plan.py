@@ -9,10 +9,12 @@ import numpy.typing as npt
 
 from core.errors import GeometryError
 from core.geometry.outline import FloatArray, as_points
+from core.methods.assembly import assemble
 from core.methods.intrinsic import IntrinsicPaths
 from core.methods.linear import LinearPaths
+from core.methods.pins import Paths, Pin, PinnedPaths, hold
 
-METHODS: tuple[str, ...] = ("linear", "intrinsic")
+METHODS: tuple[str, ...] = ("linear", "intrinsic", "rigid")
 """The names of the methods, from the simplest to the best."""
 
 
@@ -38,10 +40,20 @@ class AlignedPair:
 
 @dataclass(frozen=True, eq=False)
 class DrawingPlan:
-    """Paths of all vertices of a drawing over one span; made by `plan_drawing`."""
+    """Paths of all vertices of a drawing over one span; made by `plan_drawing`.
+
+    Attributes
+    ----------
+    pairs : tuple of AlignedPair
+    paths : Paths
+        What places the vertices.
+    note : str
+        What the method could not do as it should, in a sentence for the artist; empty when all is well.
+    """
 
     pairs: tuple[AlignedPair, ...]
-    paths: LinearPaths | IntrinsicPaths
+    paths: Paths
+    note: str = ""
 
     def evaluate(self, t: npt.ArrayLike) -> tuple[FloatArray, ...]:
         """Return the in-betweens at the times `t` (T,): an array (T, k_i, 2) for every outline, in px.
@@ -53,7 +65,7 @@ class DrawingPlan:
         GeometryError
             If a t is not a finite number.
         """
-        times = np.atleast_1d(_as_times(t))
+        times = np.atleast_1d(as_times(t))
         frames = self.paths.evaluate(times)
         first = 0
         outlines = []
@@ -71,6 +83,11 @@ class Plan:
     """Paths of the vertices of one outline over one span; made by `plan`."""
 
     drawing: DrawingPlan
+
+    @property
+    def note(self) -> str:
+        """See `DrawingPlan`."""
+        return self.drawing.note
 
     def evaluate(self, t: npt.ArrayLike) -> FloatArray:
         """Return the in-betweens at the times `t` (T,) as (T, n, 2), in px; see `DrawingPlan.evaluate`."""
@@ -99,7 +116,7 @@ def inbetween(
     closed : bool
         Whether the last vertex is joined to the first.
     turns : int
-        Whole turns added to the shortest one (intrinsic only); positive from x towards y.
+        Whole turns added to the shortest one (not for linear); positive from x towards y.
 
     Returns
     -------
@@ -115,8 +132,10 @@ def inbetween(
     Notes
     -----
     `linear` is (1 - t) a + t b. `intrinsic` interpolates lengths and headings of the edges (Sederberg, Gao, Wang
-    and Mu, "2-D shape blending", SIGGRAPH 1993). It depends neither on scale, position, start vertex and drawing
-    direction nor on which keyframe comes first; only an exact half turn has no shorter side and goes from x
+    and Mu, "2-D shape blending", SIGGRAPH 1993). `rigid` lets the interior turn and stretch as one (Alexa,
+    Cohen-Or and Levin, SIGGRAPH 2000); where that cannot be it falls back to intrinsic, which the `note` of the
+    plan says. Both depend neither on scale, position, start vertex and drawing direction nor on which keyframe
+    comes first (rigid up to its choice of a mesh); only an exact half turn has no shorter side and goes from x
     towards y.
 
     Examples
@@ -129,21 +148,32 @@ def inbetween(
            [ 1.   ,  2.414],
            [-0.414,  1.   ]])
     """
-    times = _as_times(t)
+    times = as_times(t)
     frames = plan(a, b, method=method, closed=closed, turns=turns).evaluate(np.atleast_1d(times))
     return frames if times.ndim else frames[0]
 
 
 def plan(
-    a: npt.ArrayLike, b: npt.ArrayLike, *, method: str = "intrinsic", closed: bool = True, turns: int = 0
+    a: npt.ArrayLike,
+    b: npt.ArrayLike,
+    *,
+    method: str = "intrinsic",
+    closed: bool = True,
+    turns: int = 0,
+    pins: Sequence[Pin] = (),
 ) -> Plan:
-    """Return the paths from `a` to `b`, to be evaluated at any number of times; parameters as of `inbetween`."""
+    """Return the paths from `a` to `b`, to be evaluated at any number of times.
+
+    Parameters as of `inbetween` and `plan_drawing`.
+    """
     left = as_points(a, name="before", closed=closed)
     right = as_points(b, name="after", closed=closed)
-    return Plan(plan_drawing([AlignedPair(left, right, closed)], method=method, turns=turns))
+    return Plan(plan_drawing([AlignedPair(left, right, closed)], method=method, turns=turns, pins=pins))
 
 
-def plan_drawing(pairs: Sequence[AlignedPair], *, method: str = "intrinsic", turns: int = 0) -> DrawingPlan:
+def plan_drawing(
+    pairs: Sequence[AlignedPair], *, method: str = "intrinsic", turns: int = 0, pins: Sequence[Pin] = ()
+) -> DrawingPlan:
     """Return the paths of all outlines of a drawing, which move as one thing: a hole stays in its place.
 
     Parameters
@@ -152,6 +182,8 @@ def plan_drawing(pairs: Sequence[AlignedPair], *, method: str = "intrinsic", tur
         The outlines. Unlike in `plan`, a side may be a single point.
     method, turns
         As of `inbetween`.
+    pins : sequence of Pin
+        Points whose way is given, on whatever outline; every frame has them exactly there.
 
     Raises
     ------
@@ -170,13 +202,32 @@ def plan_drawing(pairs: Sequence[AlignedPair], *, method: str = "intrinsic", tur
             raise GeometryError(
                 f"{where}before has {len(pair.left)} vertices, after has {len(pair.right)}; match them first"
             )
-    if method == "linear" or not pairs:
-        return DrawingPlan(tuple(pairs), LinearPaths.of([(p.left, p.right) for p in pairs]))
-    outlines = [(p.left, p.right, p.closed) for p in pairs]
-    return DrawingPlan(tuple(pairs), IntrinsicPaths.of(outlines, turns=turns))
+    paths, note = _paths([(p.left, p.right, p.closed) for p in pairs], method, turns, pins)
+    return DrawingPlan(tuple(pairs), paths, note)
 
 
-def _as_times(t: npt.ArrayLike) -> FloatArray:
+def _paths(
+    outlines: Sequence[tuple[FloatArray, FloatArray, bool]], method: str, turns: int, pins: Sequence[Pin]
+) -> tuple[Paths, str]:
+    """Return the paths of all vertices, led through the pins, and what the method could not do as it should."""
+    bending, note = None, ""
+    held = hold(pins, outlines) if pins else None
+    paths: Paths
+    if method == "linear" or not outlines:
+        paths = LinearPaths.of([(left, right) for left, right, _ in outlines])
+    elif method == "intrinsic":
+        paths = IntrinsicPaths.of(assemble(outlines, turns=turns))
+    else:
+        from core.methods import rigid  # sparse solvers take a while to import
+
+        paths, note = rigid.rigid_paths(outlines, turns=turns)
+        if held is not None and isinstance(paths, rigid.RigidPaths):
+            bending = rigid.RigidBending.of(paths, held.weights)
+    return (paths if held is None else PinnedPaths(paths, held, bending)), note
+
+
+def as_times(t: npt.ArrayLike) -> FloatArray:
+    """Return `t`, a number or a row of them, as a checked float array; `GeometryError` where it is neither."""
     try:
         times = np.asarray(t, dtype=np.float64)
     except (TypeError, ValueError):

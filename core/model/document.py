@@ -19,6 +19,9 @@ LONGEST = 100_000
 FASTEST = 1000
 MOST_TURNS = 100
 LONGEST_NAME = 1000
+AUTO = "auto"
+"""Not a method of its own: the better one of rigid and intrinsic."""
+
 LONGEST_PATH = 4096
 FINEST_RATE = 2**31 - 1
 """Largest upper or lower number of a frame rate."""
@@ -105,23 +108,26 @@ class Span:
     Attributes
     ----------
     method : str
-        How vertices travel; one of `core.METHODS`.
+        How vertices travel; one of `core.METHODS`, or "auto": the better one of rigid and intrinsic.
     easing : Easing
     turns : int
         Extra whole turns, clockwise on the stage when positive.
+    repair : bool
+        Whether crossings of the in-betweens are bent away.
     pairs : tuple of OutlinePair
         Only what the artist fixed; the other outlines are paired automatically. Pairs whose outlines are gone
         are ignored.
     """
 
-    method: str = "intrinsic"
+    method: str = AUTO
     easing: Easing = field(default_factory=Easing)
     turns: int = 0
     pairs: tuple[OutlinePair, ...] = ()
+    repair: bool = False
 
     def __post_init__(self) -> None:
-        if self.method not in METHODS:
-            raise DocumentError(f"unknown method {self.method!r}; known are {', '.join(METHODS)}")
+        if self.method not in (*METHODS, AUTO):
+            raise DocumentError(f"unknown method {self.method!r}; known are {', '.join((*METHODS, AUTO))}")
         if abs(self.turns) > MOST_TURNS:
             raise DocumentError(f"{self.turns} extra turns; the limit is {MOST_TURNS}")
         for side in ("before", "after"):

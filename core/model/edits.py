@@ -27,6 +27,7 @@ from core.model.pair_edits import (
     pair_outlines_by_hand,
     set_muted,
     solve_again,
+    store_answer,
 )
 from core.model.parts import keyframe_of, with_keyframe
 from core.model.positions import Positions, after_deletion, after_insertion, holding, same_build
@@ -59,6 +60,7 @@ __all__ = [
     "set_stage",
     "set_style",
     "solve_again",
+    "store_answer",
 ]
 
 NOT_MOVED: Mapping[int, int] = {}
@@ -252,6 +254,7 @@ def set_span(
     method: str | None = None,
     easing: Easing | None = None,
     turns: int | None = None,
+    repair: bool | None = None,
 ) -> Document:
     """Change how the span that begins at `frame` moves."""
     layer = document.layer(layer_id)
@@ -262,6 +265,7 @@ def set_span(
         method=span.method if method is None else method,
         easing=span.easing if easing is None else easing,
         turns=span.turns if turns is None else turns,
+        repair=span.repair if repair is None else repair,
     )
     return document if changed == span else with_keyframe(document, layer, replace(keyframe, span=changed))
 

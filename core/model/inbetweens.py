@@ -1,7 +1,7 @@
 """From a document to the picture of a frame: matched once, planned once, evaluated often."""
 
 from collections import OrderedDict
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,10 +10,11 @@ from core.correspondence.drawings import pair_outlines
 from core.correspondence.matching import match
 from core.correspondence.pairing import Correspondence
 from core.geometry.outline import FloatArray, locate, points_at
-from core.methods.plan import AlignedPair, DrawingPlan, plan_drawing
+from core.methods.plan import AlignedPair
 from core.model.color import mix_colors
 from core.model.document import Document, Keyframe, Layer, Span, ratio_in_span
 from core.model.drawing import Drawing, Outline, Style
+from core.model.solving import Paths, solve_paths
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -90,19 +91,19 @@ class SpanPlan:
     """Everything about a span that does not depend on t."""
 
     links: tuple[Link, ...]
-    paths: DrawingPlan
+    paths: Paths
     styles: tuple[Style, Style]
 
     def picture(self, t: float) -> Picture:
         """Return the in-between at the eased t (0 and 1 give the keyframes' shapes)."""
-        frames = self.paths.evaluate(np.array([t]))
+        frames = self.paths.plan.evaluate(np.array([t]))
         closed = (link.aligned.closed for link in self.links)
         outlines = tuple((f[0], c) for f, c in zip(frames, closed, strict=True))
         return Picture(outlines, mix_styles(*self.styles, t))
 
     def frames(self, t: Sequence[float]) -> tuple[FloatArray, ...]:
         """Return one (T, k, 2) array an outline for all t at once."""
-        return self.paths.evaluate(np.asarray(t, dtype=np.float64))
+        return self.paths.plan.evaluate(np.asarray(t, dtype=np.float64))
 
 
 def mix_styles(before: Style, after: Style, t: float) -> Style:
@@ -143,8 +144,16 @@ def match_span(before: Drawing, after: Drawing, span: Span) -> SpanMatch:
     return SpanMatch(tuple(pairs))
 
 
-def plan_span(before: Drawing, after: Drawing, span: Span, matched: SpanMatch | None = None) -> SpanPlan:
-    """Return the plan of a span.
+def plan_span(
+    before: Drawing,
+    after: Drawing,
+    span: Span,
+    matched: SpanMatch | None = None,
+    *,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> SpanPlan:
+    """Return the plan of a span; linear and intrinsic at once, the others and a repair may take their time.
 
     Parameters
     ----------
@@ -152,9 +161,13 @@ def plan_span(before: Drawing, after: Drawing, span: Span, matched: SpanMatch | 
     span : Span
     matched : SpanMatch, optional
         Correspondences solved before, also for drawings whose vertices have moved since; solved when omitted.
+    progress, cancelled
+        Of the repair; see `core.repair.plan.repair_drawing`.
 
     Raises
     ------
+    CancelledError
+        When `cancelled` says so.
     CorrespondenceError
         If `matched` is of outlines with other vertex counts, or the anchors cross.
     """
@@ -164,7 +177,8 @@ def plan_span(before: Drawing, after: Drawing, span: Span, matched: SpanMatch | 
     partnered_after = {p.after for p in matched.pairs}
     links += [_shrinking(o, after) for o in before.outlines if o.id not in partnered_before]
     links += [_growing(o, before) for o in after.outlines if o.id not in partnered_after]
-    paths = plan_drawing([link.aligned for link in links], method=span.method, turns=span.turns)
+    pairs = [link.aligned for link in links]
+    paths = solve_paths(pairs, span.method, span.turns, repair=span.repair, progress=progress, cancelled=cancelled)
     return SpanPlan(tuple(links), paths, (before.style, after.style))
 
 

@@ -140,6 +140,18 @@ def choose_correspondence(
     return _with_pair(document, layer_id, frame, pair)
 
 
+def store_answer(
+    document: Document, layer_id: int, frame: int, before_id: int, after_id: int, correspondence: Correspondence
+) -> Document:
+    """Store what the solver answered; it is given up as soon as an outline or an anchor of the pair changes."""
+    old = span_of(document, layer_id, frame).pair_of(before_id, after_id)
+    if old and old.correspondence is not None:
+        return document
+    _outlines(document, layer_id, frame, before_id, after_id)
+    pair = OutlinePair(before_id, after_id, old.anchors if old else (), correspondence)
+    return _with_pair(document, layer_id, frame, pair)
+
+
 def pair_outlines_by_hand(
     document: Document, layer_id: int, frame: int, before_id: int, after_id: int
 ) -> Document:

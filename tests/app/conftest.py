@@ -137,6 +137,7 @@ def editor(qtbot: QtBot, settings: Settings) -> Iterator[Editor]:
     yield made
     made.playback.stop()
     made.preview.stop()
+    made.ranked.stop()
 
 
 @pytest.fixture

@@ -92,16 +92,16 @@ def test_help_and_version_import_neither_numpy_nor_qt_nor_argparse(words):
     assert not modules & {"numpy", "scipy", "PySide6", "shiboken6", "pyqtgraph", "argparse", "core"}
 
 
-def test_info_imports_no_qt(project):
+def test_info_imports_neither_qt_nor_scipy(project):
     code, modules = imported_by("info", str(project))
     assert code == 0
-    assert not modules & {"PySide6", "shiboken6", "pyqtgraph", "av"}
+    assert not modules & {"PySide6", "shiboken6", "pyqtgraph", "scipy"}
 
 
 def test_an_export_imports_no_window_toolkit(project, tmp_path):
     code, modules = imported_by("export", str(project), str(tmp_path / "out"))
     assert code == 0
-    assert not modules & {"PySide6.QtWidgets", "pyqtgraph", "av"}
+    assert not modules & {"PySide6.QtWidgets", "pyqtgraph"}
 
 
 def test_info_says_what_is_in_a_project(project, capsys):
@@ -109,13 +109,13 @@ def test_info_says_what_is_in_a_project(project, capsys):
     said = capsys.readouterr().out
     assert "64 x 48 px, transparent" in said
     assert "6 frames, 24 a second" in said
-    assert "keyframe at 1: outlines 2, vertices 8, then intrinsic\n" in said
+    assert "keyframe at 1: outlines 2, vertices 8, then auto\n" in said
     assert said.endswith("keyframe at 6: outlines 2, vertices 8\n")
 
 
 def test_info_for_programs_is_json(project, capsys):
     assert main(["info", str(project), "--json"]) == 0
-    keyframe = {"outlines": 2, "vertices": 8, "method": "intrinsic"}
+    keyframe = {"outlines": 2, "vertices": 8, "method": "auto"}
     assert json.loads(capsys.readouterr().out) == {
         "file": str(project),
         "stage": {"width": 64, "height": 48, "background": None},

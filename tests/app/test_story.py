@@ -401,7 +401,9 @@ def test_a_saved_file_opens_to_the_same_document_and_picture(hand, tmp_path: Pat
     target = tmp_path / "first day.inkb"
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *a, **k: (str(tmp_path / "first day"), ""))
     hand.key(Qt.Key.Key_S, Qt.KeyboardModifier.ControlModifier)
-    assert load(target) == document
+    saved = load(target)
+    assert saved == hand.editor.preview.with_answers(document)
+    assert saved.layers[0].keyframes[0].span.pairs[0].correspondence is not None
     assert not hand.editor.window.isWindowModified()
     assert "first day" in hand.editor.window.windowTitle()
     hand.menu("file.new")
@@ -411,7 +413,7 @@ def test_a_saved_file_opens_to_the_same_document_and_picture(hand, tmp_path: Pat
     hand.session.go_to(12)
     hand.settle(qtbot)
     hand.canvas.setFocus()
-    assert hand.session.document == document
+    assert hand.session.document == saved
     assert hand.picture() == picture
     hand.editor.window.menus["File"].aboutToShow.emit()
     assert hand.editor.window.recent_menu.actions()[0].text() == "first day.inkb"

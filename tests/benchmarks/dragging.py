@@ -135,6 +135,7 @@ def main():
             f"QPainter alone {alone:.1f} ms, {median / alone:.2f} times (goal {most}, under {limit} ms)"
         )
         editor.preview.stop()
+        editor.ranked.stop()
         editor.files.may_leave = lambda: True
         editor.window.close()
     app.quit()

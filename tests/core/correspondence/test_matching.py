@@ -279,3 +279,12 @@ def test_dragging_one_anchor_moves_little_beyond_the_next():
     far = np.linspace(81, 109, 40) % 100
     moved = [lengths_at(b, s.images(a, b, far)) / perimeter(b) for s in steps]
     assert shift(*moved) < 0.002
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_several_anchors_on_an_edge_without_length_are_kept(closed):
+    a = np.repeat(wave([0.2, 0, 0, 0], [0, 0, 0, 0], 8), 2, axis=0)
+    b = wave([0.1, 0.1, 0, 0], [0, 1, 0, 0], 11)
+    anchors = [(4.25, 2.5), (4.5, 4.0), (4.75, 6.125)]
+    c = match(a, b, anchors, closed=closed)
+    assert set(anchors) <= set(zip(c.before.tolist(), c.after.tolist(), strict=True))

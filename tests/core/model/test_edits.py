@@ -344,7 +344,7 @@ SAME = [
     lambda d: edits.insert_vertex(d, 1, 1, 1, 2.0),
     lambda d: edits.delete_vertices(d, 1, 1, {1: []}),
     lambda d: edits.set_style(d, 1, 1, Style()),
-    lambda d: edits.set_span(d, 1, 1, method="intrinsic", easing=Easing(), turns=0),
+    lambda d: edits.set_span(d, 1, 1, method="auto", easing=Easing(), turns=0, repair=False),
     lambda d: edits.add_anchor(d, 1, 1, 1, 1, Anchor(2.5, 2.0)),
     lambda d: edits.move_anchor(d, 1, 1, 1, 1, 1, Anchor(2.5, 2.0)),
     lambda d: edits.clear_anchors(d, 1, 13),

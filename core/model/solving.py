@@ -1,0 +1,108 @@
+"""From a span's method to paths: "auto" decided, repaired if wanted."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.certificate import SEVERITIES, certify_drawing
+from core.methods.plan import AlignedPair, DrawingPlan, plan_drawing
+from core.model.document import AUTO
+from core.repair.plan import RepairedDrawingPlan, repair_drawing
+
+CANDIDATES = ("rigid", "intrinsic")
+"""What auto chooses from; the first one wins a tie."""
+
+LOOKS = np.arange(1, 16) / 16
+"""Times at which auto looks at the in-betweens."""
+
+TIE = 0.02
+"""Relative difference in stretch below which two methods are equally good."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Paths:
+    """Where the vertices of a span go.
+
+    Attributes
+    ----------
+    plan : DrawingPlan or RepairedDrawingPlan
+    method : str
+        The method that was taken.
+    reason : str
+        One sentence why, when it was auto; else empty.
+    notes : tuple of str
+        What did not go as asked: a fallback, a repair that was not possible.
+    """
+
+    plan: DrawingPlan | RepairedDrawingPlan
+    method: str
+    reason: str = ""
+    notes: tuple[str, ...] = ()
+
+
+def solve_paths(
+    pairs: Sequence[AlignedPair],
+    method: str,
+    turns: int,
+    *,
+    repair: bool = False,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Paths:
+    """Return the paths of a drawing.
+
+    Parameters
+    ----------
+    pairs : sequence of AlignedPair
+    method : str
+        One of `core.METHODS`, or "auto": the one of rigid and intrinsic with the better certificate, then the
+        lesser stretch.
+    turns : int
+        Extra whole turns.
+    repair : bool
+        Whether crossings are bent away; may take seconds.
+    progress, cancelled
+        Of the repair, as of `core.repair.plan.repair_drawing`.
+    """
+    if method == AUTO:
+        paths = _best(pairs, turns)
+    else:
+        plan = plan_drawing(pairs, method=method, turns=turns)
+        paths = Paths(plan, method, notes=(plan.note,) if plan.note else ())
+    if not repair or not isinstance(paths.plan, DrawingPlan):
+        return paths
+    repaired = repair_drawing(paths.plan, progress=progress, cancelled=cancelled)
+    return Paths(repaired, paths.method, paths.reason, (*paths.notes, *repaired.notes))
+
+
+def _best(pairs: Sequence[AlignedPair], turns: int) -> Paths:
+    """Look at both methods' in-betweens, and take the one with fewer and lesser problems, then less stretch."""
+    plans = [plan_drawing(pairs, method=m, turns=turns) for m in CANDIDATES]
+    if plans[0].note.startswith("fell back"):  # there is nothing to choose from
+        reason = f"auto chose intrinsic: {plans[0].note}"
+        return Paths(plans[1], "intrinsic", reason)
+    marks = [_mark(plan, pairs) for plan in plans]
+    (rigid_errors, rigid_stretch), (other_errors, other_stretch) = marks
+    if rigid_errors != other_errors:
+        best = 0 if rigid_errors < other_errors else 1
+        reason = f"auto chose {CANDIDATES[best]}: fewer problems"
+    else:
+        best = 0 if rigid_stretch <= other_stretch * (1 + TIE) else 1
+        clean = "no problem, " if not any(rigid_errors) else ""
+        reason = f"auto chose {CANDIDATES[best]}: {clean}least stretch"
+    notes = (plans[best].note,) if plans[best].note else ()
+    return Paths(plans[best], CANDIDATES[best], reason, notes)
+
+
+def _mark(plan: DrawingPlan, pairs: Sequence[AlignedPair]) -> tuple[tuple[int, ...], float]:
+    """Return the numbers of problems, errors first, and the mean of the largest stretch."""
+    certificate = certify_drawing(
+        plan.evaluate(LOOKS),
+        [p.closed for p in pairs],
+        [p.left for p in pairs],
+        [p.right for p in pairs],
+        times=LOOKS,
+    )
+    found = [p.severity for p in certificate.problems]
+    return tuple(found.count(s) for s in SEVERITIES[:2]), float(certificate.stretch.mean())
