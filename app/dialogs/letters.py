@@ -22,7 +22,7 @@ from app.theme import Theme
 from core.geometry.outline import FloatArray
 
 LARGEST_LETTERS = 10_000
-MOST_CHARACTERS = 500
+MOST_CHARACTERS = 200
 MARGIN = 16
 
 
@@ -105,11 +105,14 @@ class LettersDialog(QDialog):
         super().accept()
 
     def _show(self, *_: object) -> None:
-        text = self.text.toPlainText()[:MOST_CHARACTERS]
-        self.outlines = letter_outlines(text, self.chosen_font(), self.height_field.value(), self._middle)
+        whole = self.text.toPlainText()
+        self.outlines = letter_outlines(
+            whole[:MOST_CHARACTERS], self.chosen_font(), self.height_field.value(), self._middle
+        )
         self.preview.show_outlines(self.outlines)
         vertices = sum(map(len, self.outlines))
-        self.count.setText(f"outlines {len(self.outlines)}, vertices {vertices}")
+        cut = f" (of the first {MOST_CHARACTERS} characters)" if len(whole) > MOST_CHARACTERS else ""
+        self.count.setText(f"outlines {len(self.outlines)}, vertices {vertices}{cut}")
         self.buttons.button(QDialogButtonBox.StandardButton.Ok).setEnabled(bool(self.outlines))
 
 
