@@ -65,7 +65,8 @@ def smooth(points: FloatArray, *, step: float, radius: int = 2) -> FloatArray:
 
 def without_repeats(points: FloatArray) -> FloatArray:
     """Drop points that equal the one before them."""
-    return points[np.concatenate([[True], edge_lengths(points, closed=False) > 0])]
+    kept: FloatArray = points[np.concatenate([[True], edge_lengths(points, closed=False) > 0])]
+    return kept
 
 
 def _distances(points: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
