@@ -161,19 +161,30 @@ class _Reader:
         return done > 0 and self._complete
 
     def _groups(self, upper: str, text: str) -> Iterator[list[float]]:
-        count = COUNTS[upper]
+        """Yield the numbers of each repetition; read one by one, so that a long text keeps nobody waiting."""
         self._complete = True
         if upper == "A":
-            found = [[float(x) for x in match.groups()] for match in _ARC.finditer(text)]
-            self._complete = not _ARC.sub("", text).strip(" ,\t\r\n")
-        else:
-            numbers = [float(x) for x in NUMBER.findall(text)]
-            self._complete = len(numbers) % count == 0
-            found = [numbers[i : i + count] for i in range(0, len(numbers) - count + 1, count)]
-        share = (len(text) + 1) / max(len(found), 1)
-        for group in found:
-            self._step(share)
-            yield group
+            yield from self._arcs(text)
+            return
+        count, done = COUNTS[upper], 0
+        group: list[float] = []
+        for match in NUMBER.finditer(text):
+            group.append(float(match[0]))
+            if len(group) == count:
+                self._step(match.end() - done)
+                done = match.end()
+                yield group
+                group = []
+        self._complete = not group
+
+    def _arcs(self, text: str) -> Iterator[list[float]]:
+        done = 0
+        for match in _ARC.finditer(text):
+            self._complete &= not text[done : match.start()].strip(" ,\t\r\n")
+            self._step(match.end() - done)
+            done = match.end()
+            yield [float(x) for x in match.groups()]
+        self._complete &= not text[done:].strip(" ,\t\r\n")
 
     def _draw(self, kind: str, n: list[float], origin: complex) -> bool:
         trail = self.trail
