@@ -18,7 +18,7 @@ def clear(a, b, bend=None):
 
 
 @given(st.integers(4, 30), st.integers(0, 2**32 - 1), st.floats(0, 0.2))
-@settings(max_examples=150)
+@settings(max_examples=100)
 def test_a_clear_move_keeps_simple_outlines_simple(count, seed, reach):
     rng = np.random.default_rng(seed)
     a, b = untangled(count, rng), rng.uniform(0, 100, (count, 2))
@@ -28,7 +28,8 @@ def test_a_clear_move_keeps_simple_outlines_simple(count, seed, reach):
         assert all(Polygon(p).is_valid for p in frames)
     else:  # and what is refused comes at least near to a crossing
         gaps = [near_distance(p) for p in frames]
-        assert min(gaps) < 0.3 * gaps[0] or min(gaps) < 0.05
+        between = 2 * np.hypot(*(b - a).T).max() / 40  # how much gaps may change from frame to frame
+        assert min(gaps) < max(0.3 * gaps[0], 0.05, between)
 
 
 def near_distance(p):
