@@ -210,7 +210,8 @@ def route(
     for tried in (spans, [(0, TICKS)]):  # if the parts cannot be mended, perhaps the whole can
         if found.whole:
             break
-        found = _mended(field, path, ground, easy, tried, chords, sketches, tell)
+        told = tell if tried is spans else lambda share: None  # progress never falls back
+        found = _mended(field, path, ground, easy, tried, chords, sketches, told)
     return found
 
 
