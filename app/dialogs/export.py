@@ -107,6 +107,7 @@ class ExportDialog(QDialog):
         form.setContentsMargins(20, 20, 20, 16)
         form.setSpacing(12)
         browse = QPushButton("Choose…")
+        browse.setAutoDefault(False)
         browse.clicked.connect(self._browse)
         form.addRow("Folder", _row(self.folder, browse))
         form.addRow("Name", self.name)

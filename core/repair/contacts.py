@@ -141,6 +141,21 @@ def clear_moves(
     return fine
 
 
+def roomy(chains: Chains, frames: ComplexArray) -> BoolArray:
+    """Whether (T,) frames (T, n) are everywhere wide enough to be arrived at, or as narrow as a keyframe."""
+    fine = np.ones(len(frames), np.bool_)
+    step = max(1, BOXES // frames.shape[1])
+    for k in range(0, len(frames), step):
+        part = frames[k : k + step]
+        pairs = near_pairs(chains, part, np.zeros_like(part), ARRIVING.floor)
+        apart = distances(*pairs.of(part.ravel()))[0]
+        narrow = np.full(len(apart), np.inf)
+        for z in () if chains.keyframes is None else chains.keyframes:
+            narrow = np.minimum(narrow, distances(*pairs.within(z))[0])
+        fine[k + pairs.frame[apart < ARRIVING.of(0 * apart, narrow)]] = False
+    return fine
+
+
 Triple = tuple[ComplexArray, ComplexArray, ComplexArray]
 """Values at the vertex, the start and the end of the edge."""
 

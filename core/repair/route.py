@@ -206,6 +206,26 @@ def route(
     ground = terrain(field.chains, path, stretches)
     easy = _easy(field, ground)
     spans = _with_margins(runs(ground.bad), easy)
+    found = Route((), whole=False)
+    for tried in (spans, [(0, TICKS)]):  # if the parts cannot be mended, perhaps the whole can
+        if found.whole:
+            break
+        told = tell if tried is spans else lambda share: None  # progress never falls back
+        found = _mended(field, path, ground, easy, tried, chords, sketches, told)
+    return found
+
+
+def _mended(
+    field: Field,
+    path: Path,
+    ground: Terrain,
+    easy: BoolArray,
+    spans: list[tuple[int, int]],
+    chords: list[tuple[int, int]],
+    sketches: tuple[Sketch, ...],
+    tell: Callable[[float], None],
+) -> Route:
+    """Go round each of the spans, and straight along the chords outside of them."""
     repairs = []
     done, work = 0, 2 * sum(last - first for first, last in spans)
 

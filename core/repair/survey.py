@@ -7,7 +7,7 @@ import numpy as np
 
 from core.geometry.outline import FloatArray
 from core.repair.chains import BoolArray, Chains, ComplexArray
-from core.repair.contacts import clear_moves
+from core.repair.contacts import clear_moves, roomy
 
 COARSE = 32
 """Stretches into which a span is cut at first; those in doubt are halved."""
@@ -87,7 +87,7 @@ class Terrain:
     ----------
     frames : (TICKS + 1, n) complex array
     sound : (TICKS + 1,) bool array
-        Simple, and the same way round as the keyframes.
+        Simple, the same way round as the keyframes, and nowhere so narrow that rounding might decide.
     bad : (TICKS,) bool array
         The moves from tick to tick that are not clear, or lead from or to a frame that is not sound.
     """
@@ -102,6 +102,7 @@ def terrain(chains: Chains, path: Path, stretches: list[Stretch]) -> Terrain:
     frames = path(np.arange(TICKS + 1) / TICKS)
     sound = chains.simple(frames)
     sound &= (chains.signs(frames) == chains.signs(frames[:1])).all(axis=1)
+    sound &= roomy(chains, frames)
     bad = ~(sound[:-1] & sound[1:])
     for s in stretches:
         bad[s.first : s.last] |= s.kind == "bad"

@@ -20,7 +20,7 @@ def clear(a, b, bend=None):
 
 
 @given(st.integers(4, 30), st.integers(0, 2**32 - 1), st.floats(0, 0.2))
-@settings(max_examples=150)
+@settings(max_examples=100)
 def test_a_clear_move_keeps_simple_outlines_simple(count, seed, reach):
     rng = np.random.default_rng(seed)
     a, b = untangled(count, rng), rng.uniform(0, 100, (count, 2))
