@@ -1,0 +1,74 @@
+"""The certificate of a span: what is wrong with its in-betweens, by frame of the film."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from core.certificate import Certificate, Problem, certify_drawing
+from core.model.document import Keyframe, ratio_in_span
+from core.model.inbetweens import SpanPlan
+
+
+@dataclass(frozen=True, eq=False)
+class SpanCertificate:
+    """What was found on the in-betweens of a span.
+
+    Attributes
+    ----------
+    certificate : Certificate
+    frames : tuple of int
+        The frames of the film that the certificate's frames are: all between the two keyframes.
+    """
+
+    certificate: Certificate
+    frames: tuple[int, ...]
+
+    @cached_property
+    def worst(self) -> dict[int, Problem]:
+        """The worst problem of every frame that has one."""
+        found: dict[int, Problem] = {}
+        for p in self.certificate.problems:
+            if p.frame is not None:
+                found.setdefault(self.frames[p.frame], p)
+        return found
+
+    def frame_of(self, problem: Problem) -> int | None:
+        """Return the frame of the film that a problem is on; None where it is the whole span's."""
+        return None if problem.frame is None else self.frames[problem.frame]
+
+    def severity_at(self, frame: int) -> str:
+        """Return the worst severity of a frame, "" where nothing was found."""
+        problem = self.worst.get(frame)
+        return problem.severity if problem else ""
+
+
+def certify_span(before: Keyframe, after: Keyframe, plan: SpanPlan) -> SpanCertificate:
+    """Return the certificate of all in-betweens of a span, each at its eased t.
+
+    Parameters
+    ----------
+    before, after : Keyframe
+    plan : SpanPlan
+        Of the span between them.
+    """
+    frames = tuple(range(before.frame + 1, after.frame))
+    times = before.span.easing.t_at(np.array([ratio_in_span(before, after, f) for f in frames], np.float64))
+    if not frames or not plan.links:
+        empty = np.zeros(len(frames))
+        return SpanCertificate(Certificate((), times, empty, empty, empty + 1, {}), frames)
+    pairs = [link.aligned for link in plan.links]
+    certificate = certify_drawing(
+        plan.frames(times),
+        [p.closed for p in pairs],
+        [p.left for p in pairs],
+        [p.right for p in pairs],
+        times=times,
+        notes=plan.paths.notes,
+    )
+    return SpanCertificate(certificate, frames)
+
+
+def finding(problem: Problem) -> str:
+    """Return the sentence of a problem without its time, to stand behind the frame's number."""
+    return problem.text if problem.t is None else problem.text.removeprefix(f"frame at t {problem.t:.3g}: ")
