@@ -17,6 +17,7 @@ from app.editing import Clipboard
 from app.files import Files
 from app.playback import Playback
 from app.preview.alternatives import AlternativesPreview
+from app.preview.certificates import CertificatePreview
 from app.preview.spans import SpanPreview
 from app.session import Selection, Session
 from app.settings import Settings
@@ -51,6 +52,7 @@ class Editor(QObject):
         self.plans = PlanCache()
         theme = system_theme(self.settings.text("theme", "system"))
         self.ranked = AlternativesPreview(self.preview, self)
+        self.certificates = CertificatePreview(self.session, self.preview, self)
         self.window = Window(
             self.session, self.preview, self.ranked, self.view_state, self.playback, self.settings, theme
         )
@@ -309,6 +311,7 @@ class Editor(QObject):
         self.playback.stop()
         self.preview.stop()
         self.ranked.stop()
+        self.certificates.stop()
         self.settings.keep("window/geometry", self.window.saveGeometry())
         event.accept()
 

@@ -59,7 +59,7 @@ def certify_span(before: Keyframe, after: Keyframe, plan: SpanPlan) -> SpanCerti
         return SpanCertificate(Certificate((), times, empty, empty, empty + 1, {}), frames)
     pairs = [link.aligned for link in plan.links]
     certificate = certify_drawing(
-        plan.frames(times),
+        plan.frames(times.tolist()),
         [p.closed for p in pairs],
         [p.left for p in pairs],
         [p.right for p in pairs],
