@@ -54,7 +54,14 @@ class Editor(QObject):
         self.ranked = AlternativesPreview(self.preview, self)
         self.certificates = CertificatePreview(self.session, self.preview, self)
         self.window = Window(
-            self.session, self.preview, self.ranked, self.view_state, self.playback, self.settings, theme
+            self.session,
+            self.preview,
+            self.ranked,
+            self.certificates,
+            self.view_state,
+            self.playback,
+            self.settings,
+            theme,
         )
         self.files = Files(self.window, self.session, self.settings, self.preview.with_answers, self.window.tell)
         self.export_dialog: ExportDialog | None = None

@@ -25,6 +25,7 @@ from app.panels.span import SpanPanel
 from app.panels.timeline import Timeline, action_button
 from app.playback import Playback
 from app.preview.alternatives import AlternativesPreview
+from app.preview.certificates import CertificatePreview
 from app.preview.spans import SpanPreview
 from app.session import Session
 from app.settings import Settings
@@ -50,6 +51,7 @@ class Window(QMainWindow):
         session: Session,
         preview: SpanPreview,
         ranked: AlternativesPreview,
+        certificates: CertificatePreview,
         view: ViewState,
         playback: Playback,
         settings: Settings,
@@ -65,7 +67,7 @@ class Window(QMainWindow):
             "tool.pencil": PencilTool(self.canvas),
             "tool.correspond": CorrespondTool(self.canvas),
         }
-        self.timeline = Timeline(session, view, playback, theme, self.table.actions)
+        self.timeline = Timeline(session, view, playback, certificates, theme, self.table.actions)
         self.alternatives_panel = AlternativesPanel(session, preview, ranked, theme)
         self.span_panel = SpanPanel(session, view, self.table.actions, preview, self.alternatives_panel)
         self.easing_panel = EasingPanel(session, theme)

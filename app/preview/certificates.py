@@ -53,6 +53,7 @@ class CertificatePreview(QObject):
         self._made: OrderedDict[SpanKey, _Certified] = OrderedDict()
         self._left: list[tuple[Keyframe, Keyframe]] = []
         self._wanted: list[_Task] = []
+        self._under_way: list[_Task] = []
         self._worker = NewestWins(self)
         self._worker.finished.connect(self._on_certified)
         self._pause = _single_shot(self, PAUSE_MS, self._on_paused)
@@ -63,7 +64,7 @@ class CertificatePreview(QObject):
     @property
     def settled(self) -> bool:
         """Whether every span that has its final plan has its certificate."""
-        return not (self._pause.isActive() or self._next.isActive()) and self._worker.idle
+        return not (self._pause.isActive() or self._next.isActive() or self._under_way)
 
     def stop(self) -> None:
         self._pause.stop()
@@ -98,13 +99,15 @@ class CertificatePreview(QObject):
                 self._wanted.append(_Task(before, after, plan))
             self._next.start()
         elif self._wanted:
-            wanted, self._wanted = self._wanted, []
+            self._under_way = wanted = self._wanted
             self._worker.submit(lambda: [task.certify() for task in wanted])
 
     def _on_certified(self, result: object) -> None:
         if isinstance(result, Exception):
             raise result
         if isinstance(result, list):
+            if [made.task for made in result] == self._under_way:
+                self._under_way = []
             for made in result:
                 key = _key(made.task.before, made.task.after)
                 self._made[key] = made

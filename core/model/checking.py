@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import groupby
 
 import numpy as np
 
@@ -32,6 +33,12 @@ class SpanCertificate:
             if p.frame is not None:
                 found.setdefault(self.frames[p.frame], p)
         return found
+
+    @cached_property
+    def runs(self) -> tuple[tuple[int, int, str], ...]:
+        """Frames that have the same worst severity: the first, the last, and it; "" where nothing was found."""
+        groups = (tuple(g) for _, g in groupby(self.frames, key=self.severity_at))
+        return tuple((g[0], g[-1], self.severity_at(g[0])) for g in groups)
 
     def frame_of(self, problem: Problem) -> int | None:
         """Return the frame of the film that a problem is on; None where it is the whole span's."""

@@ -3,8 +3,12 @@
 from dataclasses import replace
 
 import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QColor
+from PySide6.QtTest import QTest
 
 from core.model.edits import set_span
+from tests.app.conftest import LEFT, NONE, move_pointer
 from tests.app.sketches import film, swing
 
 
@@ -58,3 +62,49 @@ def test_a_repaired_span_is_certified_when_the_repair_is_there(crossing, qtbot):
     crossing.session.apply("Repair", set_span, 1, 3, repair=True)
     crossing.certify(qtbot)
     assert certificate(crossing).certificate.ok
+
+
+# the strip
+
+
+def spot(hand, frame):
+    """The place of a frame on the first row's bar, beside its dot."""
+    track = hand.editor.window.timeline.track
+    at = track.key_place(hand.session.layer, frame).toPoint()
+    return track, QPoint(at.x() + 3, at.y() + 3)
+
+
+def strip_color(hand, frame):
+    """The token whose colour the strip has there, most nearly by its hue."""
+    track, at = spot(hand, frame)
+    seen = QColor(track.grab().toImage().pixel(at)).hue()
+    theme = hand.editor.window.theme
+    tokens = ("good", "warning", "error", "accent")
+    return min(tokens, key=lambda n: abs((theme.color(n).hue() - seen + 180) % 360 - 180))
+
+
+def test_the_strip_is_coloured_frame_by_frame(crossing, qtbot):
+    assert strip_color(crossing, 8) == "error"
+    assert strip_color(crossing, 5) == "warning"
+    crossing.session.apply("Repair", set_span, 1, 3, repair=True)
+    crossing.certify(qtbot)
+    assert strip_color(crossing, 8) != "error"
+
+
+def test_a_clean_span_is_green_and_one_that_is_not_yet_certified_neutral(hand, qtbot):
+    hand.session.new(film(length=12, size=(640, 480), side=200.0))
+    assert strip_color(hand, 6) == "accent"
+    hand.certify(qtbot)
+    assert strip_color(hand, 6) == "good"
+    hand.session.apply("Change Turns", set_span, 1, 1, turns=1)
+    assert strip_color(hand, 6) == "accent"
+
+
+def test_hovering_a_coloured_frame_names_its_problem_and_a_click_goes_there(crossing):
+    track, at = spot(crossing, 8)
+    move_pointer(track, at, NONE, Qt.MouseButton.NoButton)
+    assert track.toolTip() == "Frame 8: edge 6 crosses edge 9"
+    QTest.mouseClick(track, LEFT, NONE, at)
+    assert crossing.session.frame == 8
+    move_pointer(track, spot(crossing, 16)[1], NONE, Qt.MouseButton.NoButton)
+    assert track.toolTip() == ""

@@ -33,6 +33,7 @@ def test_every_in_between_is_certified_under_its_frame_of_the_film():
     assert made.frames == tuple(range(6, 15))
     assert made.certificate.problems == ()
     assert [made.severity_at(f) for f in made.frames] == [""] * 9
+    assert made.runs == ((6, 14, ""),)
     np.testing.assert_allclose(made.certificate.area, 10_000)
 
 
@@ -55,6 +56,10 @@ def test_crossings_are_errors_and_told_without_their_time():
     crossed = [p for p in made.certificate.problems if p.kind == "crossing"]
     assert {p.severity for p in crossed} == {"error"}
     assert {made.frame_of(p) for p in crossed} <= set(made.frames)
+    firsts, lasts, worst = zip(*made.runs, strict=True)
+    assert (firsts[0], lasts[-1]) == (6, 14)
+    assert firsts[1:] == tuple(f + 1 for f in lasts[:-1])
+    assert "error" in worst
     assert finding(crossed[0]).startswith("edge ")
     assert crossed[0].text.endswith(finding(crossed[0]))
 
