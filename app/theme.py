@@ -163,6 +163,10 @@ QToolButton[picture="true"] {{ background: {t.raised}; border-color: {t.line}; c
 QToolButton[picture="true"]:hover {{ border-color: {t.muted}; }}
 QToolButton[picture="true"]:checked {{ border: 1.5px solid {t.accent}; color: {t.text}; }}
 QLabel[role="badge"] {{ color: {t.warning}; font-size: 11px; }}
+QPushButton[problem="true"] {{ background: {t.raised}; border-color: {t.line}; text-align: left;
+    padding: 2px 8px; min-height: 17px; }}
+QPushButton[problem="true"]:hover {{ border-color: {t.muted}; }}
+QFrame#plot {{ background: {t.raised}; border: 1px solid {t.line}; border-radius: 7px; }}
 QToolButton[swatch="true"] {{ background: {t.raised}; border-color: {t.line}; padding: 3px; }}
 QWidget#segments {{ background: {t.raised}; border: 1px solid {t.line}; border-radius: 8px; }}
 QPushButton {{ background: {t.raised}; color: {t.text}; border: 1px solid {t.line}; border-radius: 7px;

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 from app.actions import ACTIONS, MENUS, ActionTable
 from app.canvas.canvas import Canvas
 from app.panels.alternatives import AlternativesPanel
+from app.panels.certificate import CertificatePanel
 from app.panels.drawing import DrawingPanel
 from app.panels.easing import EasingPanel
 from app.panels.messagebar import MessageBar
@@ -71,6 +72,8 @@ class Window(QMainWindow):
         self.alternatives_panel = AlternativesPanel(session, preview, ranked, theme)
         self.span_panel = SpanPanel(session, view, self.table.actions, preview, self.alternatives_panel)
         self.easing_panel = EasingPanel(session, theme)
+        self.certificate_panel = CertificatePanel(session, certificates, theme)
+        self.certificate_panel.problemChosen.connect(self.canvas.mark)
         self.drawing_panel = DrawingPanel(session, theme, *self._tolerance())
         self.setCentralWidget(self._central())
         self.message_bar = MessageBar(self.canvas, theme)
@@ -131,7 +134,7 @@ class Window(QMainWindow):
         column = QVBoxLayout(inner)
         column.setContentsMargins(0, 4, 0, 12)
         column.setSpacing(4)
-        for panel in (self.span_panel, self.easing_panel, self.drawing_panel):
+        for panel in (self.span_panel, self.easing_panel, self.certificate_panel, self.drawing_panel):
             column.addWidget(panel)
             column.addWidget(separator())
         column.addStretch(1)
@@ -222,7 +225,7 @@ class Window(QMainWindow):
         self.theme = theme
         self.setStyleSheet(style_sheet(theme))
         self.table.set_theme(theme)
-        panels = (self.alternatives_panel, self.easing_panel, self.drawing_panel)
+        panels = (self.alternatives_panel, self.easing_panel, self.certificate_panel, self.drawing_panel)
         for part in (self.canvas, self.timeline, *panels, self.message_bar):
             part.set_theme(theme)
 

@@ -12,6 +12,7 @@ from app.canvas.items import (
     HandlesItem,
     LabelsItem,
     LinesItem,
+    MarkItem,
     OnionItem,
     OthersItem,
     PaperItem,
@@ -53,6 +54,7 @@ class Canvas(pg.GraphicsView):
         self.camera = Camera()
         self.tool: Tool | None = None
         self.hover: QPointF | None = None
+        self.marked: tuple[tuple[float, float], str] | None = None
         self.thinner = Thinner()
         self._plans = PlanCache()
         self._content: Content | None = None
@@ -70,7 +72,17 @@ class Canvas(pg.GraphicsView):
         self._connect()
 
     def _add_items(self) -> None:
-        kinds = (PaperItem, OnionItem, FilmItem, ShapesItem, LinesItem, LabelsItem, HandlesItem, ToolItem)
+        kinds = (
+            PaperItem,
+            OnionItem,
+            FilmItem,
+            ShapesItem,
+            LinesItem,
+            LabelsItem,
+            HandlesItem,
+            MarkItem,
+            ToolItem,
+        )
         self._items = [kind(self, 10 * z) for z, kind in enumerate(kinds)]
         self._items.append(OthersItem(self, 5, in_front=False))
         self._items.append(OthersItem(self, 35, in_front=True))
@@ -81,6 +93,8 @@ class Canvas(pg.GraphicsView):
         s = self.session
         for signal in (s.documentChanged, s.frameChanged, s.layerChanged, s.selectionChanged):
             signal.connect(self._on_changed)
+        for signal in (s.documentChanged, s.frameChanged, s.layerChanged):
+            signal.connect(lambda _=None: self.mark(None))
         self.preview.planned.connect(self._on_changed)
         s.gestureChanged.connect(self._on_gesture_changed)
         self.view_state.changed.connect(self._on_view_changed)
@@ -228,6 +242,13 @@ class Canvas(pg.GraphicsView):
         """Light up a place of the view, or none."""
         if spot != self.hover:
             self.hover = spot
+            self.refresh()
+
+    def mark(self, place: tuple[float, float] | None, token: str = "error") -> None:
+        """Ring a place of the stage in a colour of the theme, until the playhead moves or the document changes."""
+        marked = None if place is None else (place, token)
+        if marked != self.marked:
+            self.marked = marked
             self.refresh()
 
     def _tell_place(self, at: QPointF) -> None:

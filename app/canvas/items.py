@@ -257,6 +257,20 @@ class HandlesItem(CanvasItem):
         painter.drawEllipse(spot, 7.5, 7.5)
 
 
+class MarkItem(CanvasItem):
+    """A ring around the place of a problem."""
+
+    def draw(self, painter: QPainter, content: Content) -> None:
+        if self.canvas.marked is None or content.options.final:
+            return
+        place, token = self.canvas.marked
+        painter.setBrush(self.canvas.theme.color(token, 0.14))
+        painter.setPen(QPen(self.canvas.theme.color(token), 2.4))
+        for paper in content.papers:
+            if INBETWEEN in paper.shows:
+                painter.drawEllipse(QPointF(*self.canvas.camera.to_view(np.array(place), paper.offset)), 15, 15)
+
+
 class LabelsItem(CanvasItem):
     """Which frame has which colour, in the corner of the paper; and what to do on an empty one."""
 

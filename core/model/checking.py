@@ -6,7 +6,7 @@ from itertools import groupby
 
 import numpy as np
 
-from core.certificate import Certificate, Problem, certify_drawing
+from core.certificate import SEVERITIES, Certificate, Problem, certify_drawing
 from core.model.document import Keyframe, ratio_in_span
 from core.model.inbetweens import SpanPlan
 
@@ -33,6 +33,16 @@ class SpanCertificate:
             if p.frame is not None:
                 found.setdefault(self.frames[p.frame], p)
         return found
+
+    @cached_property
+    def summary(self) -> tuple[Problem, ...]:
+        """Of every kind of problem the worst one, errors first."""
+        found: dict[tuple[str, str], Problem] = {}
+        for p in self.certificate.problems:
+            known = found.setdefault((p.severity, p.kind), p)
+            if _badness(p) > _badness(known):
+                found[p.severity, p.kind] = p
+        return tuple(sorted(found.values(), key=lambda p: SEVERITIES.index(p.severity)))
 
     @cached_property
     def runs(self) -> tuple[tuple[int, int, str], ...]:
@@ -74,6 +84,15 @@ def certify_span(before: Keyframe, after: Keyframe, plan: SpanPlan) -> SpanCerti
         notes=plan.paths.notes,
     )
     return SpanCertificate(certificate, frames)
+
+
+def _badness(problem: Problem) -> float:
+    """Return a number that is the larger the worse, among problems of a kind."""
+    if problem.kind == "collapse":
+        return -problem.value
+    if problem.kind == "area":  # a half is as bad as a double
+        return max(problem.value, 1 / problem.value) if problem.value > 0 else np.inf
+    return problem.value
 
 
 def finding(problem: Problem) -> str:

@@ -108,3 +108,72 @@ def test_hovering_a_coloured_frame_names_its_problem_and_a_click_goes_there(cros
     assert crossing.session.frame == 8
     move_pointer(track, spot(crossing, 16)[1], NONE, Qt.MouseButton.NoButton)
     assert track.toolTip() == ""
+
+
+# the panel
+
+
+@pytest.fixture
+def panel(crossing):
+    return crossing.editor.window.certificate_panel
+
+
+def test_the_panel_plots_the_measures_with_the_playhead_in_them(crossing, panel):
+    frames, area = panel.plot.curves["area"].getData()
+    assert frames.tolist() == list(range(4, 13))
+    assert (area.min(), area.max()) == pytest.approx((0, 1))
+    assert panel.plot.playhead.value() == 5
+    crossing.session.go_to(9)
+    assert panel.plot.playhead.value() == 9
+
+
+def test_the_panel_lists_the_worst_of_every_kind_errors_first(panel):
+    assert panel.section.note.text() == "7 errors"
+    assert [row.text() for row in panel.rows] == ["frame 8: edges 6 and 9 cross", "frame 8: area × 0.51"]
+    assert panel.rows[0].toolTip() == "frame 8: edge 6 crosses edge 9"
+
+
+def test_a_click_on_a_problem_goes_there_and_rings_its_place_until_the_playhead_moves(crossing, panel):
+    crossing.press_button(panel.rows[0])
+    assert crossing.session.frame == 8
+    place, token = crossing.canvas.marked
+    assert place == certificate(crossing).worst[8].place
+    assert token == "error"
+    ringed = crossing.picture()
+    crossing.canvas.mark(None)
+    assert crossing.picture() != ringed
+    crossing.press_button(panel.rows[1])
+    assert crossing.canvas.marked[1] == "warning"
+    crossing.session.go_to(9)
+    assert crossing.canvas.marked is None
+
+
+def test_the_repair_button_takes_the_crossings_away_in_one_step(crossing, panel, qtbot):
+    crossing.press_button(panel.repair)
+    assert panel.section.note.text() == "checking …"
+    crossing.certify(qtbot)
+    assert "error" not in panel.section.note.text()
+    assert panel.repair.isHidden()
+    assert strip_color(crossing, 8) != "error"
+    crossing.menu("edit.undo")
+    assert panel.section.note.text() == "7 errors"
+    assert not panel.repair.isHidden()
+
+
+def test_a_clean_span_has_no_problem_and_outside_there_is_nothing(hand, qtbot):
+    document = film(length=12, size=(640, 480), side=200.0)
+    hand.session.new(replace(document, length=20))
+    hand.certify(qtbot)
+    panel = hand.editor.window.certificate_panel
+    assert panel.section.note.text() == "no problem"
+    assert panel.rows == []
+    hand.session.go_to(20)
+    assert panel.plot.isHidden()
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_the_panel_follows_the_theme(crossing, panel, theme):
+    crossing.editor.set_theme(theme)
+    colors = crossing.editor.window.theme
+    assert panel.plot.curves["area"].opts["pen"].color().name() == colors.good
+    assert colors.error in panel.section.note.styleSheet()

@@ -56,6 +56,10 @@ def test_crossings_are_errors_and_told_without_their_time():
     crossed = [p for p in made.certificate.problems if p.kind == "crossing"]
     assert {p.severity for p in crossed} == {"error"}
     assert {made.frame_of(p) for p in crossed} <= set(made.frames)
+    assert made.summary[0].kind in ("crossing", "inside out")
+    assert len({(p.severity, p.kind) for p in made.summary}) == len(made.summary)
+    areas = [p.value for p in made.certificate.problems if p.kind == "area"]
+    assert [p.value for p in made.summary if p.kind == "area"] == [min(areas)]
     firsts, lasts, worst = zip(*made.runs, strict=True)
     assert (firsts[0], lasts[-1]) == (6, 14)
     assert firsts[1:] == tuple(f + 1 for f in lasts[:-1])
