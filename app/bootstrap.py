@@ -120,6 +120,7 @@ class Editor(QObject):
             "view.onion": lambda: view.set(onion=not view.options.onion),
             "view.lines": self._next_lines,
             "view.hues": lambda: view.set(hues=not view.options.hues),
+            "view.heat": lambda: view.set(heat=not view.options.heat),
             "view.final": lambda: view.set(final=not view.options.final),
             "view.fit": canvas.fit,
             "view.zoom_in": lambda: canvas.zoom(1.25),
@@ -216,6 +217,7 @@ class Editor(QObject):
         table["key.delete"].setEnabled(session.layer.keyframe_at(session.frame) is not None)
         table["view.onion"].setChecked(options.onion)
         table["view.hues"].setChecked(options.hues)
+        table["view.heat"].setChecked(options.heat)
         table["view.final"].setChecked(options.final)
         table[ARRANGEMENT_ACTIONS[options.arrangement]].setChecked(True)
         self._show_playing()

@@ -35,6 +35,9 @@ class Theme:
     good: str
     warning: str
     error: str
+    shorter: str
+    same: str
+    longer: str
 
     def color(self, token: str, alpha: float = 1.0) -> QColor:
         """Return the colour of a token, with an alpha from 0 to 1."""
@@ -62,6 +65,9 @@ DARK = Theme(
     good="#3dd68c",
     warning="#f5c04e",
     error="#ff6161",
+    shorter="#3fa9f5",
+    same="#8b93a1",
+    longer="#ff8c1a",
 )
 LIGHT = Theme(
     "light",
@@ -82,6 +88,9 @@ LIGHT = Theme(
     good="#1a9e5c",
     warning="#c98a05",
     error="#d63b3b",
+    shorter="#0072b2",
+    same="#a9b0bb",
+    longer="#e06c00",
 )
 
 

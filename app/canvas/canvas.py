@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QGraphicsView, QWidget
 
 from app.canvas.camera import Camera, fitted
 from app.canvas.content import Content, build_content
+from app.canvas.heat import HeatItem
 from app.canvas.items import (
     FilmItem,
     HandlesItem,
@@ -77,6 +78,7 @@ class Canvas(pg.GraphicsView):
             OnionItem,
             FilmItem,
             ShapesItem,
+            HeatItem,
             LinesItem,
             LabelsItem,
             HandlesItem,

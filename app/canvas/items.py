@@ -300,6 +300,8 @@ class LabelsItem(CanvasItem):
             words.append((f"after  frame {content.after.frame}", "after"))
         if INBETWEEN in paper.shows and content.t is not None and self._between(content):
             words.append((f"in-between  frame {content.frame}", "inbetween"))
+            if content.options.heat:
+                words += [("shorter", "shorter"), ("longer than the keyframes", "longer")]
         if content.waiting and INBETWEEN in paper.shows and content.plan is not None:
             words.append((f"solving … ({content.plan.paths.method} shown)", "muted"))
         return words

@@ -3,7 +3,7 @@
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QIcon, QPainter, QPixmap
+from PySide6.QtGui import QIcon, QPainter, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from app.panels.parts import Section, flat_button
@@ -47,7 +47,7 @@ class MeasuresPlot(QFrame):
         item.setMenuEnabled(False)
         self.plot.setYRange(-0.1, 1.5, padding=0)
         self.curves = {name: self.plot.plot(antialias=True) for name, _, _ in CURVES}
-        self.playhead = pg.InfiniteLine()
+        self.playhead = pg.InfiniteLine(span=(0, 0.82))
         self.plot.addItem(self.playhead)
         self.legend = QLabel(self)
         self.legend.move(10, 6)
@@ -74,6 +74,22 @@ class MeasuresPlot(QFrame):
             self.plot.setXRange(frames[0] - 1, frames[-1] + 1, padding=0)
 
 
+class ProblemRow(QPushButton):
+    """A problem in one line, cut where the panel ends."""
+
+    def __init__(self, words: str) -> None:
+        super().__init__(words)
+        self.words = words
+        self.setProperty("problem", True)
+        self.setMinimumWidth(1)
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        room = self.width() - self.iconSize().width() - 26
+        self.setText(self.fontMetrics().elidedText(self.words, Qt.TextElideMode.ElideRight, room))
+
+
 class CertificatePanel(QWidget):
     """`problemChosen` tells the place and the colour of a problem that was clicked, after going to its frame."""
 
@@ -87,7 +103,7 @@ class CertificatePanel(QWidget):
         self.section = Section("Certificate")
         self.plot = MeasuresPlot(theme)
         self.section.box.addWidget(self.plot)
-        self.rows: list[QPushButton] = []
+        self.rows: list[ProblemRow] = []
         self._grid = QGridLayout()
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setSpacing(2)
@@ -96,6 +112,7 @@ class CertificatePanel(QWidget):
         self.repair = flat_button(
             "repair", "Bend the in-betweens just as far as needed, so that none crosses itself"
         )
+        self.repair.setFixedHeight(23)
         self.repair.clicked.connect(self._on_repair)
         self._grid.addWidget(self.repair, 0, 1)
         column = QVBoxLayout(self)
@@ -137,15 +154,12 @@ class CertificatePanel(QWidget):
         for i, row in enumerate(self.rows):
             self._grid.addWidget(row, i, 0, 1, 2 if i else 1)  # beside the first one stands the repair
 
-    def _row(self, made: SpanCertificate, problem: Problem) -> QPushButton:
+    def _row(self, made: SpanCertificate, problem: Problem) -> ProblemRow:
         frame = made.frame_of(problem)
         where = "" if frame is None else f"frame {frame}: "
-        row = QPushButton(where + brief(problem))
-        row.setProperty("problem", True)
-        row.setMinimumWidth(1)
+        row = ProblemRow(where + brief(problem))
         row.setIcon(dot(self.theme.color(SEVERITY_COLORS[problem.severity])))
         row.setToolTip(f"{where}{finding(problem)}")
-        row.setCursor(Qt.CursorShape.PointingHandCursor)
         row.clicked.connect(lambda: self._go_to(frame, problem))
         return row
 
@@ -179,7 +193,7 @@ def brief(problem: Problem) -> str:
     if problem.kind == "area":
         return f"{outline}area × {problem.value:.2g}"
     if problem.kind == "crossing":
-        return f"edges {problem.edges[0]} and {problem.edges[1]} cross"
+        return f"edge {problem.edges[0]} crosses {problem.edges[1]}"
     if problem.kind == "fold":
         return f"{outline}edge {problem.edges[0]} folds back"
     return finding(problem)

@@ -7,6 +7,9 @@ from itertools import groupby
 import numpy as np
 
 from core.certificate import SEVERITIES, Certificate, Problem, certify_drawing
+from core.certificate.views import factors
+from core.geometry.outline import FloatArray, edge_lengths
+from core.methods.plan import AlignedPair
 from core.model.document import Keyframe, ratio_in_span
 from core.model.inbetweens import SpanPlan
 
@@ -93,6 +96,25 @@ def _badness(problem: Problem) -> float:
     if problem.kind == "area":  # a half is as bad as a double
         return max(problem.value, 1 / problem.value) if problem.value > 0 else np.inf
     return problem.value
+
+
+def edge_stretch(pair: AlignedPair, points: FloatArray, t: float) -> FloatArray:
+    """Return how many times as long as between the keyframes each edge of an in-between is.
+
+    Parameters
+    ----------
+    pair : AlignedPair
+        The outline in both keyframes.
+    points : (n, 2) float array
+        The in-between.
+    t : float
+        Its eased time.
+    """
+    ends = np.stack([pair.left, pair.right])
+    size = float(np.ptp(ends, axis=1).max())
+    lengths, end_lengths = (edge_lengths(x, closed=pair.closed) for x in (points[None], ends))
+    stretch: FloatArray = factors(lengths, end_lengths, np.array([t]), size)[0]
+    return stretch
 
 
 def finding(problem: Problem) -> str:

@@ -2,11 +2,15 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor
 from PySide6.QtTest import QTest
 
+from app.canvas.heat import shade_color, shades_of
+from app.theme import DARK, LIGHT
+from app.view import ViewState
 from core.model.edits import set_span
 from tests.app.conftest import LEFT, NONE, move_pointer
 from tests.app.sketches import film, swing
@@ -129,7 +133,7 @@ def test_the_panel_plots_the_measures_with_the_playhead_in_them(crossing, panel)
 
 def test_the_panel_lists_the_worst_of_every_kind_errors_first(panel):
     assert panel.section.note.text() == "7 errors"
-    assert [row.text() for row in panel.rows] == ["frame 8: edges 6 and 9 cross", "frame 8: area × 0.51"]
+    assert [row.text() for row in panel.rows] == ["frame 8: edge 6 crosses 9", "frame 8: area × 0.51"]
     assert panel.rows[0].toolTip() == "frame 8: edge 6 crosses edge 9"
 
 
@@ -177,3 +181,31 @@ def test_the_panel_follows_the_theme(crossing, panel, theme):
     colors = crossing.editor.window.theme
     assert panel.plot.curves["area"].opts["pen"].color().name() == colors.good
     assert colors.error in panel.section.note.styleSheet()
+
+
+# the heat map
+
+
+def test_the_heat_map_colours_the_in_between_by_stretch_and_is_remembered(crossing, settings):
+    crossing.session.go_to(8)
+    plain = crossing.picture()
+    crossing.key("t")
+    assert crossing.editor.window.table["view.heat"].isChecked()
+    assert ViewState(settings).options.heat
+    assert crossing.picture() != plain
+    crossing.key("t")
+    assert crossing.picture() == plain
+
+
+def test_heat_is_blue_where_edges_are_shorter_grey_where_they_are_the_same_and_orange_where_longer():
+    assert shades_of(np.array([0.2, 0.5, 1.0, 1.01, 2.0, 9.0])).tolist() == [-6, -6, 0, 0, 6, 6]
+    for theme in (DARK, LIGHT):
+        colors = [shade_color(theme, shade).name() for shade in (-6, 0, 6)]
+        assert colors == [theme.shorter, theme.same, theme.longer]
+
+
+def test_a_keyframe_itself_has_no_heat(crossing):
+    crossing.session.go_to(3)
+    plain = crossing.picture()
+    crossing.key("t")
+    assert crossing.picture() == plain

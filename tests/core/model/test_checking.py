@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from core.correspondence.pairing import Correspondence
-from core.model.checking import certify_span, finding
+from core.model.checking import certify_span, edge_stretch, finding
 from core.model.document import Keyframe, Span
 from core.model.drawing import Drawing, Outline
 from core.model.easing import PRESETS
@@ -83,3 +83,10 @@ def test_a_note_of_the_plan_is_a_problem_of_the_whole_span():
     (note,) = (p for p in made.certificate.problems if p.kind == "fallback")
     assert made.frame_of(note) is None
     assert finding(note) == plan.paths.notes[0]
+
+
+def test_the_stretch_of_an_edge_is_told_against_both_keyframes():
+    _, _, plan = span(SQUARE, SQUARE * 3)
+    pair = plan.links[0].aligned
+    np.testing.assert_allclose(edge_stretch(pair, SQUARE * 2, 0.5), 1.0)
+    np.testing.assert_allclose(edge_stretch(pair, SQUARE * 4, 0.5), 2.0, rtol=2e-3)
