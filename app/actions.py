@@ -107,6 +107,14 @@ ACTIONS: tuple[ActionSpec, ...] = (
         tip="Matching parts of the two outlines get the same colour",
     ),
     ActionSpec(
+        "view.heat",
+        "View",
+        "Stretch Heat Map",
+        ("Shift+H",),
+        checkable=True,
+        tip="Colour the in-between where it is longer or shorter than its keyframes",
+    ),
+    ActionSpec(
         "view.final", "View", "Final Look", ("F9",), "visible", checkable=True, tip="As exported, without helpers"
     ),
     _line("View"),

@@ -19,6 +19,7 @@ from app.files import Files
 from app.incoming import Incoming
 from app.playback import Playback
 from app.preview.alternatives import AlternativesPreview
+from app.preview.certificates import CertificatePreview
 from app.preview.spans import SpanPreview
 from app.session import Selection, Session
 from app.settings import Settings
@@ -53,8 +54,16 @@ class Editor(QObject):
         self.plans = PlanCache()
         theme = system_theme(self.settings.text("theme", "system"))
         self.ranked = AlternativesPreview(self.preview, self)
+        self.certificates = CertificatePreview(self.session, self.preview, self)
         self.window = Window(
-            self.session, self.preview, self.ranked, self.view_state, self.playback, self.settings, theme
+            self.session,
+            self.preview,
+            self.ranked,
+            self.certificates,
+            self.view_state,
+            self.playback,
+            self.settings,
+            theme,
         )
         self.files = Files(self.window, self.session, self.settings, self.preview.with_answers, self.window.tell)
         self.incoming = Incoming(self.window, self.session, self.settings)
@@ -122,6 +131,7 @@ class Editor(QObject):
             "view.onion": lambda: view.set(onion=not view.options.onion),
             "view.lines": self._next_lines,
             "view.hues": lambda: view.set(hues=not view.options.hues),
+            "view.heat": lambda: view.set(heat=not view.options.heat),
             "view.final": lambda: view.set(final=not view.options.final),
             "view.fit": canvas.fit,
             "view.zoom_in": lambda: canvas.zoom(1.25),
@@ -220,6 +230,7 @@ class Editor(QObject):
         table["insert.no_reference"].setEnabled(current_reference(session) is not None)
         table["view.onion"].setChecked(options.onion)
         table["view.hues"].setChecked(options.hues)
+        table["view.heat"].setChecked(options.heat)
         table["view.final"].setChecked(options.final)
         table[ARRANGEMENT_ACTIONS[options.arrangement]].setChecked(True)
         self._show_playing()
@@ -328,6 +339,7 @@ class Editor(QObject):
         self.playback.stop()
         self.preview.stop()
         self.ranked.stop()
+        self.certificates.stop()
         self.settings.keep("window/geometry", self.window.saveGeometry())
         event.accept()
 

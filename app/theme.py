@@ -35,6 +35,9 @@ class Theme:
     good: str
     warning: str
     error: str
+    shorter: str
+    same: str
+    longer: str
 
     def color(self, token: str, alpha: float = 1.0) -> QColor:
         """Return the colour of a token, with an alpha from 0 to 1."""
@@ -62,6 +65,9 @@ DARK = Theme(
     good="#3dd68c",
     warning="#f5c04e",
     error="#ff6161",
+    shorter="#3fa9f5",
+    same="#8b93a1",
+    longer="#ff8c1a",
 )
 LIGHT = Theme(
     "light",
@@ -82,6 +88,9 @@ LIGHT = Theme(
     good="#1a9e5c",
     warning="#c98a05",
     error="#d63b3b",
+    shorter="#0072b2",
+    same="#a9b0bb",
+    longer="#e06c00",
 )
 
 
@@ -163,6 +172,10 @@ QToolButton[picture="true"] {{ background: {t.raised}; border-color: {t.line}; c
 QToolButton[picture="true"]:hover {{ border-color: {t.muted}; }}
 QToolButton[picture="true"]:checked {{ border: 1.5px solid {t.accent}; color: {t.text}; }}
 QLabel[role="badge"] {{ color: {t.warning}; font-size: 11px; }}
+QPushButton[problem="true"] {{ background: {t.raised}; border-color: {t.line}; text-align: left;
+    padding: 2px 8px; min-height: 17px; }}
+QPushButton[problem="true"]:hover {{ border-color: {t.muted}; }}
+QFrame#plot {{ background: {t.raised}; border: 1px solid {t.line}; border-radius: 7px; }}
 QToolButton[swatch="true"] {{ background: {t.raised}; border-color: {t.line}; padding: 3px; }}
 QWidget#segments {{ background: {t.raised}; border: 1px solid {t.line}; border-radius: 8px; }}
 QPushButton {{ background: {t.raised}; color: {t.text}; border: 1px solid {t.line}; border-radius: 7px;

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 from app.actions import ACTIONS, MENUS, ActionTable
 from app.canvas.canvas import Canvas
 from app.panels.alternatives import AlternativesPanel
+from app.panels.certificate import CertificatePanel
 from app.panels.drawing import DrawingPanel
 from app.panels.easing import EasingPanel
 from app.panels.messagebar import MessageBar
@@ -26,6 +27,7 @@ from app.panels.span import SpanPanel
 from app.panels.timeline import Timeline, action_button
 from app.playback import Playback
 from app.preview.alternatives import AlternativesPreview
+from app.preview.certificates import CertificatePreview
 from app.preview.spans import SpanPreview
 from app.session import Session
 from app.settings import Settings
@@ -51,6 +53,7 @@ class Window(QMainWindow):
         session: Session,
         preview: SpanPreview,
         ranked: AlternativesPreview,
+        certificates: CertificatePreview,
         view: ViewState,
         playback: Playback,
         settings: Settings,
@@ -66,10 +69,12 @@ class Window(QMainWindow):
             "tool.pencil": PencilTool(self.canvas),
             "tool.correspond": CorrespondTool(self.canvas),
         }
-        self.timeline = Timeline(session, view, playback, theme, self.table.actions)
+        self.timeline = Timeline(session, view, playback, certificates, theme, self.table.actions)
         self.alternatives_panel = AlternativesPanel(session, preview, ranked, theme)
         self.span_panel = SpanPanel(session, view, self.table.actions, preview, self.alternatives_panel)
         self.easing_panel = EasingPanel(session, theme)
+        self.certificate_panel = CertificatePanel(session, certificates, theme)
+        self.certificate_panel.problemChosen.connect(self.canvas.mark)
         self.drawing_panel = DrawingPanel(session, theme, *self._tolerance())
         self.reference_panel = ReferencePanel(session)
         self.setCentralWidget(self._central())
@@ -132,7 +137,7 @@ class Window(QMainWindow):
         column = QVBoxLayout(inner)
         column.setContentsMargins(0, 4, 0, 12)
         column.setSpacing(4)
-        for panel in (self.span_panel, self.easing_panel, self.drawing_panel):
+        for panel in (self.span_panel, self.easing_panel, self.certificate_panel, self.drawing_panel):
             column.addWidget(panel)
             column.addWidget(separator())
         column.addWidget(self.reference_panel)
@@ -224,7 +229,7 @@ class Window(QMainWindow):
         self.theme = theme
         self.setStyleSheet(style_sheet(theme))
         self.table.set_theme(theme)
-        panels = (self.alternatives_panel, self.easing_panel, self.drawing_panel)
+        panels = (self.alternatives_panel, self.easing_panel, self.certificate_panel, self.drawing_panel)
         for part in (self.canvas, self.timeline, *panels, self.message_bar):
             part.set_theme(theme)
 

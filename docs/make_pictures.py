@@ -71,6 +71,7 @@ def _editor(theme: str, settings_folder: Path) -> Iterator:
     yield editor
     editor.playback.stop()
     editor.preview.stop()
+    editor.certificates.stop()
     editor.window.hide()
 
 
@@ -79,7 +80,7 @@ def _settle(editor) -> None:
     from PySide6.QtTest import QTest
 
     QTest.qWait(50)
-    while not editor.preview.settled:
+    while not (editor.preview.settled and editor.certificates.settled):
         QTest.qWait(50)
 
 

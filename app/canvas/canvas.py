@@ -7,11 +7,13 @@ from PySide6.QtWidgets import QGraphicsView, QWidget
 
 from app.canvas.camera import Camera, fitted
 from app.canvas.content import Content, build_content
+from app.canvas.heat import HeatItem
 from app.canvas.items import (
     FilmItem,
     HandlesItem,
     LabelsItem,
     LinesItem,
+    MarkItem,
     OnionItem,
     OthersItem,
     PaperItem,
@@ -54,6 +56,7 @@ class Canvas(pg.GraphicsView):
         self.camera = Camera()
         self.tool: Tool | None = None
         self.hover: QPointF | None = None
+        self.marked: tuple[tuple[float, float], str] | None = None
         self.thinner = Thinner()
         self.references = ReferencePictures(self)
         self._plans = PlanCache()
@@ -72,7 +75,18 @@ class Canvas(pg.GraphicsView):
         self._connect()
 
     def _add_items(self) -> None:
-        kinds = (PaperItem, OnionItem, FilmItem, ShapesItem, LinesItem, LabelsItem, HandlesItem, ToolItem)
+        kinds = (
+            PaperItem,
+            OnionItem,
+            FilmItem,
+            ShapesItem,
+            HeatItem,
+            LinesItem,
+            LabelsItem,
+            HandlesItem,
+            MarkItem,
+            ToolItem,
+        )
         self._items = [kind(self, 10 * z) for z, kind in enumerate(kinds)]
         self._items.append(ReferenceItem(self, 2))
         self._items.append(OthersItem(self, 5, in_front=False))
@@ -84,6 +98,8 @@ class Canvas(pg.GraphicsView):
         s = self.session
         for signal in (s.documentChanged, s.frameChanged, s.layerChanged, s.selectionChanged):
             signal.connect(self._on_changed)
+        for signal in (s.documentChanged, s.frameChanged, s.layerChanged):
+            signal.connect(lambda _=None: self.mark(None))
         self.preview.planned.connect(self._on_changed)
         s.gestureChanged.connect(self._on_gesture_changed)
         self.view_state.changed.connect(self._on_view_changed)
@@ -231,6 +247,13 @@ class Canvas(pg.GraphicsView):
         """Light up a place of the view, or none."""
         if spot != self.hover:
             self.hover = spot
+            self.refresh()
+
+    def mark(self, place: tuple[float, float] | None, token: str = "error") -> None:
+        """Ring a place of the stage in a colour of the theme, until the playhead moves or the document changes."""
+        marked = None if place is None else (place, token)
+        if marked != self.marked:
+            self.marked = marked
             self.refresh()
 
     def _tell_place(self, at: QPointF) -> None:

@@ -257,6 +257,20 @@ class HandlesItem(CanvasItem):
         painter.drawEllipse(spot, 7.5, 7.5)
 
 
+class MarkItem(CanvasItem):
+    """A ring around the place of a problem."""
+
+    def draw(self, painter: QPainter, content: Content) -> None:
+        if self.canvas.marked is None or content.options.final:
+            return
+        place, token = self.canvas.marked
+        painter.setBrush(self.canvas.theme.color(token, 0.14))
+        painter.setPen(QPen(self.canvas.theme.color(token), 2.4))
+        for paper in content.papers:
+            if INBETWEEN in paper.shows:
+                painter.drawEllipse(QPointF(*self.canvas.camera.to_view(np.array(place), paper.offset)), 15, 15)
+
+
 class LabelsItem(CanvasItem):
     """Which frame has which colour, in the corner of the paper; and what to do on an empty one."""
 
@@ -286,6 +300,8 @@ class LabelsItem(CanvasItem):
             words.append((f"after  frame {content.after.frame}", "after"))
         if INBETWEEN in paper.shows and content.t is not None and self._between(content):
             words.append((f"in-between  frame {content.frame}", "inbetween"))
+            if content.options.heat:
+                words += [("shorter", "shorter"), ("longer than the keyframes", "longer")]
         if content.waiting and INBETWEEN in paper.shows and content.plan is not None:
             words.append((f"solving … ({content.plan.paths.method} shown)", "muted"))
         return words

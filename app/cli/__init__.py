@@ -16,6 +16,7 @@ A desktop in-betweening editor: draw keyframes, say which point goes where, see 
   FILE                  a project (.inkb) to open in the editor
 
 commands:
+  check FILE            say what is wrong with the in-betweens of a project, frame by frame
   demo                  open the editor on a sample; without a display, export the sample's frames
   export FILE OUT_DIR   write the frames as numbered PNG pictures
   info FILE             say what is in a project

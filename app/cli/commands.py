@@ -12,6 +12,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import resources
+from app.cli.check import check_parser
 from app.cli.display import Problem, check_window_libraries, has_display, without_qt
 from app.cli.new import new_parser
 
@@ -81,7 +82,13 @@ def _editor_parser() -> argparse.ArgumentParser:
     return parser
 
 
-COMMANDS = {"demo": _demo_parser, "export": _export_parser, "info": _info_parser, "new": new_parser}
+COMMANDS = {
+    "check": check_parser,
+    "demo": _demo_parser,
+    "export": _export_parser,
+    "info": _info_parser,
+    "new": new_parser,
+}
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -120,7 +120,7 @@ class AlternativesPanel(QWidget):
         button.setCheckable(True)
         button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextUnderIcon)
         button.setIconSize(PICTURE)
-        button.setFixedSize(86, 74)
+        button.setFixedSize(82, 74)
         button.setText(f"{alternative.cost:.3f}")
         button.setIcon(QIcon(self._picture(ranking, alternative, method)))
         button.setToolTip(

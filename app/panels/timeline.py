@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QSlider, QToolButton, QVBo
 from app.panels.parts import label, number_field, separator
 from app.panels.track import Track
 from app.playback import Playback
+from app.preview.certificates import CertificatePreview
 from app.session import Session
 from app.theme import Theme
 from app.view import ViewState
@@ -28,6 +29,7 @@ class Timeline(QWidget):
         session: Session,
         view: ViewState,
         playback: Playback,
+        certificates: CertificatePreview,
         theme: Theme,
         actions: dict[str, QAction],
         parent: QWidget | None = None,
@@ -36,7 +38,7 @@ class Timeline(QWidget):
         self.setObjectName("timeline")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.session, self.view_state, self.playback, self.theme = session, view, playback, theme
-        self.track = Track(session, theme)
+        self.track = Track(session, certificates, theme)
         box = QVBoxLayout(self)
         box.setContentsMargins(0, 0, 0, 0)
         box.setSpacing(0)

@@ -1,12 +1,16 @@
 """The frames of the timeline: a ruler, a row a layer, keyframes as diamonds, spans as bars, the playhead."""
 
+from itertools import pairwise
+
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QContextMenuEvent, QFont, QKeyEvent, QMouseEvent, QPainter, QPen, QPolygonF, QWheelEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from app.preview.certificates import CertificatePreview
 from app.session import DocumentDiff, Gesture, Session
 from app.theme import Theme
-from core.model.document import Document, Layer
+from core.model.checking import SpanCertificate, finding
+from core.model.document import Document, Keyframe, Layer
 from core.model.edits import move_keyframe
 
 HEADER = 120
@@ -16,6 +20,10 @@ RIGHT = 28
 NARROWEST = 5.0
 WIDEST = 60.0
 DIAMOND = 7.0
+BAR = 5.0
+"""Half the height of a span's bar."""
+
+SEVERITY_COLORS = {"": "good", "info": "good", "warning": "warning", "error": "error"}
 SELDOM = (1, 2, 5, 6, 12, 24, 48, 120, 240, 600, 1200, 6000, 12000, 60000)
 
 
@@ -28,9 +36,12 @@ class Track(QWidget):
 
     menuWanted = Signal(int, object)  # frame, place on the screen
 
-    def __init__(self, session: Session, theme: Theme, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, session: Session, certificates: CertificatePreview, theme: Theme, parent: QWidget | None = None
+    ) -> None:
         super().__init__(parent)
-        self.session, self.theme = session, theme
+        self.session, self.certificates, self.theme = session, certificates, theme
+        self._painted: list[SpanCertificate | None] = []
         self._gesture: Gesture | None = None
         self._held: int | None = None
         self._scrubbing = False
@@ -45,6 +56,7 @@ class Track(QWidget):
         session.documentChanged.connect(self._on_document_changed)
         session.layerChanged.connect(self.update)
         session.frameChanged.connect(self._on_frame_changed)
+        certificates.changed.connect(self.update)
 
     def sizeHint(self) -> QSize:
         return QSize(600, RULER + 3 * ROW)
@@ -123,12 +135,28 @@ class Track(QWidget):
         elif self._held is not None and (self._gesture or abs(at.x() - self._press_x) > 4):
             self._drag_key(max(1, self.frame_at(at.x())))
         else:
-            hover = self._key_under(at)
-            if hover != self._hover_key:
-                self._hover_key = hover
-                self.setCursor(Qt.CursorShape.SizeHorCursor if hover else Qt.CursorShape.ArrowCursor)
-                self.setToolTip(f"Keyframe at frame {hover[1]}: drag to move it" if hover else "")
-                self.update()
+            self._hover(at)
+
+    def _hover(self, at: QPointF) -> None:
+        hover = self._key_under(at)
+        tip = f"Keyframe at frame {hover[1]}: drag to move it" if hover else self._problem_under(at)
+        if tip != self.toolTip():
+            self.setToolTip(tip)
+        if hover != self._hover_key:
+            self._hover_key = hover
+            self.setCursor(Qt.CursorShape.SizeHorCursor if hover else Qt.CursorShape.ArrowCursor)
+            self.update()
+
+    def _problem_under(self, at: QPointF) -> str:
+        """Return the sentence of the worst problem of the frame under the pointer, "" where there is none."""
+        row = self._row_at(at.y())
+        if row is None or abs(self.row_rect(row).center().y() - at.y()) > BAR + 4:
+            return ""
+        frame = self.frame_at(at.x())
+        before, after = self._rows()[row].around(frame)
+        certificate = self.certificates.of(before, after) if before and after else None
+        problem = certificate.worst.get(frame) if certificate else None
+        return f"Frame {frame}: {finding(problem)}" if problem else ""
 
     def _drag_key(self, to: int) -> None:
         if self._gesture is None:
@@ -184,8 +212,9 @@ class Track(QWidget):
         return min(max(value, 0.0), max(most, 0.0))
 
     def _on_document_changed(self, diff: DocumentDiff) -> None:
-        """Paint again only what shows here: moving a vertex changes neither frames nor names."""
-        if diff.frame_range or _shown(diff.before) != _shown(diff.after):
+        """Paint again only what shows here: of a drag of a vertex only that the certificate is gone."""
+        shown = _shown(diff.before), _shown(diff.after)
+        if diff.frame_range or shown[0] != shown[1] or self._certificates() != self._painted:
             self.update()
 
     def _on_frame_changed(self, frame: int) -> None:
@@ -198,9 +227,13 @@ class Track(QWidget):
             self._left = 0.0
         self.update()
 
+    def _certificates(self) -> list[SpanCertificate | None]:
+        return [self.certificates.of(*pair) for layer in self._rows() for pair in pairwise(layer.keyframes)]
+
     # painting
 
     def paintEvent(self, _: object) -> None:
+        self._painted = self._certificates()
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.fillRect(self.rect(), self.theme.color("panel"))
@@ -249,10 +282,9 @@ class Track(QWidget):
     def _paint_spans(self, painter: QPainter, rect: QRectF, layer: Layer, active: bool) -> None:
         theme, y = self.theme, rect.center().y()
         here = {k.frame for k in self.session.span_keyframes() if k is not None} if active else set()
-        for k, following in zip(layer.keyframes, layer.keyframes[1:], strict=False):
-            x0, x1 = self.x_of(k.frame), self.x_of(following.frame)
+        for k, following in pairwise(layer.keyframes):
             chosen = {k.frame, following.frame} <= here
-            painter.fillRect(QRectF(x0, y - 5, x1 - x0, 10), theme.color("accent", 0.55 if chosen else 0.28))
+            self._paint_bar(painter, y, k, following, chosen=chosen)
             if self.step >= 8:
                 painter.setPen(
                     QPen(theme.color("panel", 0.9), 2.2, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap)
@@ -262,6 +294,20 @@ class Track(QWidget):
                 )
         for k in layer.keyframes:
             self._paint_diamond(painter, QPointF(self.x_of(k.frame), y), (layer.id, k.frame))
+
+    def _paint_bar(self, painter: QPainter, y: float, before: Keyframe, after: Keyframe, *, chosen: bool) -> None:
+        """Paint a span in the colours of its certificate, or, while it has none, in the accent."""
+        certificate = self.certificates.of(before, after)
+        x0, x1 = self.x_of(before.frame), self.x_of(after.frame)
+        token, strength = ("good", (0.65, 0.4)) if certificate else ("accent", (0.55, 0.28))
+        color = self.theme.color(token, strength[0 if chosen else 1])
+        painter.fillRect(QRectF(x0, y - BAR, x1 - x0, 2 * BAR), color)
+        for first, last, severity in certificate.runs if certificate else ():
+            if SEVERITY_COLORS[severity] != "good":
+                left, right = self.x_of(first - 0.5), self.x_of(last + 0.5)
+                rect = QRectF(left, y - BAR, right - left, 2 * BAR)
+                painter.fillRect(rect, self.theme.color("panel"))
+                painter.fillRect(rect, self.theme.color(SEVERITY_COLORS[severity], 0.95 if chosen else 0.7))
 
     def _paint_diamond(self, painter: QPainter, at: QPointF, key: tuple[int, int]) -> None:
         theme = self.theme

@@ -169,8 +169,10 @@ class SpanPreview(QObject):
         if method is None and found is not None:
             self._slow.pop(before.frame, None)
         if found is None:
-            self._slow[wanted.before.frame] = wanted
-            self._pause.start()
+            asked = self._slow.get(before.frame)
+            if asked is None or asked.key != wanted.key:  # else it is being solved already
+                self._slow[before.frame] = wanted
+                self._pause.start()
             quick = span.method if span.method in QUICK_METHODS else "intrinsic"
             return self._stand_in(before, after, quick)
         _touch(self._plans, wanted.key)
@@ -220,6 +222,11 @@ class SpanPreview(QObject):
         if trial != self._trial:
             self._trial = trial
             self.planned.emit()
+
+    @property
+    def trying(self) -> bool:
+        """Whether another correspondence is shown for a while."""
+        return self._trial is not None
 
     def with_answers(self, document: Document) -> Document:
         """Return the document with every answer of the solver that is known stored in its spans.
@@ -311,8 +318,9 @@ class SpanPreview(QObject):
             self._planner.submit(lambda: _plan(wanted, self.progressed.emit, cancel.is_set))
 
     def cancel_slow(self) -> None:
-        """Stop solving; what stands in stays until something changes."""
+        """Stop solving; it begins again with the next plan that is asked for."""
         self._cancel.set()
+        self._slow.clear()
 
     def _on_solved(self, result: object) -> None:
         if isinstance(result, Exception):

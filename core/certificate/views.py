@@ -80,12 +80,17 @@ def _view(index: int, closed: bool, p: FloatArray, sides: Sequence[npt.ArrayLike
     return View(index, closed, p, both, np.asarray(finite), lengths, end_lengths, size, name)
 
 
-def stretch_of(view: View, times: FloatArray) -> FloatArray:
-    """Largest factor between the lengths of edges and those between the keyframes', both with a floor."""
+def factors(lengths: FloatArray, end_lengths: FloatArray, times: FloatArray, size: float) -> FloatArray:
+    """Factors (T, n) by which edges are longer than between the keyframes, all lengths with a floor."""
     s = np.clip(times, 0.0, 1.0)[:, None]
-    between = (1 - s) * view.end_lengths[0] + s * view.end_lengths[1]
-    floor = max(SMALL * view.size, np.finfo(np.float64).tiny)
-    factor = (view.lengths + floor) / (between + floor)
+    between = (1 - s) * end_lengths[0] + s * end_lengths[1]
+    floor = max(SMALL * size, np.finfo(np.float64).tiny)
+    return np.asarray((lengths + floor) / (between + floor), np.float64)
+
+
+def stretch_of(view: View, times: FloatArray) -> FloatArray:
+    """Largest factor of an edge, longer or shorter, of every frame."""
+    factor = factors(view.lengths, view.end_lengths, times, view.size)
     return np.asarray(np.maximum(factor, 1 / factor).max(axis=1), np.float64)
 
 

@@ -91,6 +91,11 @@ class Hand:
         """Wait until what is shown is final."""
         qtbot.waitUntil(lambda: self.canvas.content is not None and self.editor.preview.settled, timeout=20_000)
 
+    def certify(self, qtbot: QtBot) -> None:
+        """Wait until every span of the layer has its certificate."""
+        done = self.editor.preview, self.editor.certificates
+        qtbot.waitUntil(lambda: all(x.settled for x in done), timeout=20_000)
+
     def move_on(self, widget: QWidget, at: QPoint) -> None:
         """Move over another widget with the left button down."""
         move_pointer(widget, at, NONE, LEFT)
@@ -149,6 +154,7 @@ def editor(qtbot: QtBot, settings: Settings) -> Iterator[Editor]:
     made.playback.stop()
     made.preview.stop()
     made.ranked.stop()
+    made.certificates.stop()
 
 
 @pytest.fixture

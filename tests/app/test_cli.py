@@ -76,10 +76,10 @@ def test_the_version_is_the_one_that_is_packaged():
 def test_help_names_every_command(word, capsys):
     assert main([word]) == 0
     said = capsys.readouterr().out
-    assert all(f"\n  {command} " in said for command in ("demo", "export", "info"))
+    assert all(f"\n  {command} " in said for command in ("check", "demo", "export", "info"))
 
 
-@pytest.mark.parametrize("command", ["demo", "export", "info"])
+@pytest.mark.parametrize("command", ["check", "demo", "export", "info"])
 def test_every_command_has_its_own_help(command, capsys):
     assert main([command, "--help"]) == 0
     assert capsys.readouterr().out.startswith(f"usage: inkbetween {command} ")

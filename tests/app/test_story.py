@@ -543,3 +543,8 @@ def test_the_canvas_pans_with_space_and_drag_and_zooms_at_the_pointer(hand) -> N
     hand.key("f")
     assert hand.canvas.camera == camera
     assert QApplication.focusWidget() is hand.canvas
+
+
+def test_no_key_is_given_twice(hand) -> None:
+    keys = [k.toString() for a in hand.editor.window.table.actions.values() for k in a.shortcuts()]
+    assert sorted(set(keys)) == sorted(keys)
