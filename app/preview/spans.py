@@ -129,6 +129,7 @@ class SpanPreview(QObject):
         self._alike: OrderedDict[object, _Solved] = OrderedDict()
         self._plans: OrderedDict[object, _Planned] = OrderedDict()
         self._slow: dict[int, _PlanTask] = {}
+        self._planning: _PlanTask | None = None
         self._seconds: dict[object, float] = {}
         self._cancel = threading.Event()
         self._pairs: OrderedDict[object, tuple[object, Pairs]] = OrderedDict()
@@ -169,9 +170,10 @@ class SpanPreview(QObject):
         if method is None and found is not None:
             self._slow.pop(before.frame, None)
         if found is None:
-            asked = self._slow.get(before.frame)
-            if asked is None or asked.key != wanted.key:  # else it is being solved already
-                self._slow[before.frame] = wanted
+            asked = self._slow.pop(before.frame, None)
+            known = asked is not None and asked.key == wanted.key
+            self._slow[before.frame] = asked if known else wanted  # the last one asked for is solved first
+            if not known:
                 self._pause.start()
             quick = span.method if span.method in QUICK_METHODS else "intrinsic"
             return self._stand_in(before, after, quick)
@@ -311,16 +313,17 @@ class SpanPreview(QObject):
         tasks = tuple(self._wanted.values())
         if tasks:
             self._worker.submit(lambda: _solve(tasks))
-        elif self._slow:
+        elif self._slow and self._planning not in self._slow.values():
             self._cancel.set()  # of what is solved now, the span has changed since
             self._cancel = cancel = threading.Event()
-            wanted = tuple(self._slow.values())
+            self._planning = wanted = next(reversed(self._slow.values()))
             self._planner.submit(lambda: _plan(wanted, self.progressed.emit, cancel.is_set))
 
     def cancel_slow(self) -> None:
         """Stop solving; it begins again with the next plan that is asked for."""
         self._cancel.set()
         self._slow.clear()
+        self._planning = None
 
     def _on_solved(self, result: object) -> None:
         if isinstance(result, Exception):
@@ -337,25 +340,26 @@ class SpanPreview(QObject):
 
     def _on_planned(self, result: object) -> None:
         if isinstance(result, Exception):
+            self._planning = None
             raise result
-        if isinstance(result, list):
-            for made in result:
-                self._keep_plan(made)
-                _touch(self._plans, made.task.key)
-                waiting = self._slow.get(made.task.before.frame)
-                if waiting is not None and waiting.key == made.task.key:
-                    del self._slow[made.task.before.frame]
+        if isinstance(result, _Planned):  # else it was cancelled, and what came after it is under way
+            self._keep_plan(result)
+            _touch(self._plans, result.task.key)
+            if self._planning is result.task:
+                self._planning = None
+            waiting = self._slow.get(result.task.before.frame)
+            if waiting is not None and waiting.key == result.task.key:
+                del self._slow[result.task.before.frame]
             self.planned.emit()
+            if self._slow:
+                self._pause.start()
 
 
-def _plan(wanted: tuple["_PlanTask", ...], progress: Progress, cancelled: Callable[[], bool]) -> list["_Planned"]:
-    made = []
-    for task in wanted:
-        try:
-            made.append(task.solve(progress, cancelled))
-        except CancelledError:
-            break
-    return made
+def _plan(task: "_PlanTask", progress: Progress, cancelled: Callable[[], bool]) -> "_Planned | None":
+    try:
+        return task.solve(progress, cancelled)
+    except CancelledError:
+        return None
 
 
 def _solve(tasks: tuple[_Task, ...]) -> list[_Solved]:

@@ -1,6 +1,7 @@
 """The certificate in the window: which spans have one, the strip, the panel, the marks on the canvas."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from PySide6.QtTest import QTest
 from app.canvas.heat import shade_color, shades_of
 from app.theme import DARK, LIGHT
 from app.view import ViewState
+from core.model.document import Document, Keyframe, Layer, Span
 from core.model.edits import set_span
 from tests.app.conftest import LEFT, NONE, move_pointer
 from tests.app.sketches import film, swing
@@ -66,6 +68,26 @@ def test_a_repaired_span_is_certified_when_the_repair_is_there(crossing, qtbot):
     crossing.session.apply("Repair", set_span, 1, 3, repair=True)
     crossing.certify(qtbot)
     assert certificate(crossing).certificate.ok
+
+
+def test_every_span_of_a_film_is_planned_and_certified_in_the_end(hand, qtbot):
+    first, last = (k.drawing for k in swing(2.0).layers[0].keyframes)
+    keys = tuple(Keyframe(1 + 5 * i, (first, last)[i % 2], Span("auto", repair=True)) for i in range(6))
+    hand.session.new(Document(length=30, layers=(Layer(1, keyframes=keys),)))
+    hand.session.go_to(13)
+    hand.certify(qtbot)
+    assert all(hand.editor.certificates.of(*pair) for pair in pairwise(keys))
+    assert hand.editor.preview.settled
+
+
+def test_scrubbing_does_not_begin_a_long_repair_anew(crossing, qtbot):
+    crossing.session.apply("Repair", set_span, 1, 3, repair=True)
+    for _ in range(8):
+        for frame in (6, 7):
+            crossing.session.go_to(frame)
+            qtbot.wait(30)
+    crossing.settle(qtbot)
+    assert not crossing.editor.preview.waiting(crossing.session.span_keyframes()[0])
 
 
 # the strip
