@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.certificate import SEVERITIES, certify_drawing
+from core.methods.pins import Pin, PinnedPaths
 from core.methods.plan import AlignedPair, DrawingPlan, plan_drawing
 from core.repair.plan import RepairedDrawingPlan, repair_drawing
 
@@ -18,6 +19,9 @@ LOOKS = np.arange(1, 16) / 16
 
 TIE = 0.02
 """Relative difference in stretch below which two methods are equally good."""
+
+SEEN = 1e-4
+"""Distance, in sizes of the drawing, that a pinned point may be off before it is said."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -46,6 +50,7 @@ def solve_paths(
     method: str,
     turns: int,
     *,
+    pins: Sequence[Pin] = (),
     repair: bool = False,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
@@ -60,25 +65,39 @@ def solve_paths(
         lesser stretch.
     turns : int
         Extra whole turns.
+    pins : sequence of Pin
+        Points whose way is given.
     repair : bool
         Whether crossings are bent away; may take seconds.
     progress, cancelled
         Of the repair, as of `core.repair.plan.repair_drawing`.
     """
     if method == AUTO:
-        paths = _best(pairs, turns)
+        paths = _best(pairs, turns, pins)
     else:
-        plan = plan_drawing(pairs, method=method, turns=turns)
+        plan = plan_drawing(pairs, method=method, turns=turns, pins=pins)
         paths = Paths(plan, method, notes=(plan.note,) if plan.note else ())
     if not repair or not isinstance(paths.plan, DrawingPlan):
         return paths
     repaired = repair_drawing(paths.plan, progress=progress, cancelled=cancelled)
-    return Paths(repaired, paths.method, paths.reason, (*paths.notes, *repaired.notes))
+    notes = (*paths.notes, *repaired.notes, *_moved_pins(repaired))
+    return Paths(repaired, paths.method, paths.reason, notes)
 
 
-def _best(pairs: Sequence[AlignedPair], turns: int) -> Paths:
+def _moved_pins(repaired: RepairedDrawingPlan) -> tuple[str, ...]:
+    """Say so when a repair, which knows of no pins, has moved pinned points."""
+    pinned = repaired.drawing.paths
+    if not repaired.changed or not isinstance(pinned, PinnedPaths):
+        return ()
+    frames = np.concatenate(repaired.evaluate(LOOKS), axis=1)
+    off = np.abs(pinned.held.at(frames[..., 0] + 1j * frames[..., 1]) - pinned.held.wanted(LOOKS)).max()
+    size = np.ptp(frames, axis=(0, 1)).max()
+    return (f"the repair moved a pinned point by up to {off:.1f} px",) if off > SEEN * size else ()
+
+
+def _best(pairs: Sequence[AlignedPair], turns: int, pins: Sequence[Pin]) -> Paths:
     """Look at both methods' in-betweens, and take the one with fewer and lesser problems, then less stretch."""
-    plans = [plan_drawing(pairs, method=m, turns=turns) for m in CANDIDATES]
+    plans = [plan_drawing(pairs, method=m, turns=turns, pins=pins) for m in CANDIDATES]
     if plans[0].note.startswith("fell back"):  # there is nothing to choose from
         reason = f"auto chose intrinsic: {plans[0].note}"
         return Paths(plans[1], "intrinsic", reason)
