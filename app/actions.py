@@ -93,6 +93,13 @@ ACTIONS: tuple[ActionSpec, ...] = (
         tip="Matching parts of the two outlines get the same colour",
     ),
     ActionSpec(
+        "view.paths",
+        "View",
+        "Vertex Paths",
+        checkable=True,
+        tip="The ways of some vertices through the span, with a dot a frame",
+    ),
+    ActionSpec(
         "view.final", "View", "Final Look", ("F9",), "visible", checkable=True, tip="As exported, without helpers"
     ),
     _line("View"),
@@ -108,6 +115,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("tool.pen", "Draw", "Pen", ("P",), "pen", checkable=True, group="tool"),
     ActionSpec("tool.pencil", "Draw", "Pencil", ("B",), "pencil", checkable=True, group="tool"),
     ActionSpec("tool.correspond", "Draw", "Correspond", ("C",), "correspond", checkable=True, group="tool"),
+    ActionSpec("tool.pin", "Draw", "Pin", ("K",), "pin", checkable=True, group="tool"),
     _line("Draw"),
     ActionSpec(
         "key.add",
@@ -133,6 +141,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("span.auto", "Span", "Auto", (), "", checkable=True, group="method"),
     _line("Span"),
     ActionSpec("span.clear", "Span", "Clear Anchors"),
+    ActionSpec("span.clear_pins", "Span", "Clear Pins"),
     ActionSpec(
         "span.again", "Span", "Solve Again", tip="Forget the stored or chosen correspondence; anchors stay"
     ),

@@ -27,6 +27,8 @@ class ViewOptions:
         Opacity of the nearest one, 0.05 to 1.
     hues : bool
         Both outlines are tinted along their length, matching parts alike.
+    paths : bool
+        The ways of some vertices through the span are drawn.
     final : bool
         Paint as exported, without keyframes and helpers.
     """
@@ -38,6 +40,7 @@ class ViewOptions:
     onion_after: int = 2
     onion_strength: float = 0.5
     hues: bool = False
+    paths: bool = False
     final: bool = False
 
 
@@ -54,6 +57,7 @@ class ViewState(QObject):
             lines=_one_of(settings.text("view/lines", d.lines), LINES),
             onion=settings.flag("view/onion", d.onion),
             hues=settings.flag("view/hues", d.hues),
+            paths=settings.flag("view/paths", d.paths),
             onion_before=int(settings.number("view/onion_before", d.onion_before, 0, 12)),
             onion_after=int(settings.number("view/onion_after", d.onion_after, 0, 12)),
             onion_strength=settings.number("view/onion_strength", d.onion_strength, 0.05, 1),

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.certificate import SEVERITIES, certify_drawing
+from core.geometry.outline import FloatArray
 from core.methods.pins import Pin, PinnedPaths
 from core.methods.plan import AlignedPair, DrawingPlan, plan_drawing
 from core.repair.plan import RepairedDrawingPlan, repair_drawing
@@ -43,6 +44,22 @@ class Paths:
     method: str
     reason: str = ""
     notes: tuple[str, ...] = ()
+
+    @property
+    def pins(self) -> PinnedPaths | None:
+        """The paths before a repair, if they are led through pins."""
+        drawing = self.plan if isinstance(self.plan, DrawingPlan) else self.plan.drawing
+        return drawing.paths if isinstance(drawing.paths, PinnedPaths) else None
+
+    def pinned(self, t: FloatArray) -> FloatArray:
+        """Return where the k pinned points are at the times `t` (T,), as (T, k, 2) in px, repaired or not."""
+        if self.pins is None:
+            return np.zeros((len(t), 0, 2))
+        places = self.pins.held.wanted(t)
+        if isinstance(self.plan, RepairedDrawingPlan) and self.plan.changed:
+            frames = np.concatenate(self.plan.evaluate(t), axis=1)
+            places = self.pins.held.at(frames[..., 0] + 1j * frames[..., 1])
+        return np.stack([places.real, places.imag], axis=-1)
 
 
 def solve_paths(
@@ -86,11 +103,11 @@ def solve_paths(
 
 def _moved_pins(repaired: RepairedDrawingPlan) -> tuple[str, ...]:
     """Say so when a repair, which knows of no pins, has moved pinned points."""
-    pinned = repaired.drawing.paths
-    if not repaired.changed or not isinstance(pinned, PinnedPaths):
+    paths = repaired.drawing.paths
+    if not repaired.changed or not isinstance(paths, PinnedPaths):
         return ()
     frames = np.concatenate(repaired.evaluate(LOOKS), axis=1)
-    off = np.abs(pinned.held.at(frames[..., 0] + 1j * frames[..., 1]) - pinned.held.wanted(LOOKS)).max()
+    off = np.abs(paths.held.at(frames[..., 0] + 1j * frames[..., 1]) - paths.held.wanted(LOOKS)).max()
     size = np.ptp(frames, axis=(0, 1)).max()
     return (f"the repair moved a pinned point by up to {off:.1f} px",) if off > SEEN * size else ()
 
