@@ -53,6 +53,20 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("file.save_as", "File", "Save As…", ("Ctrl+Shift+S",)),
     _line("File"),
     ActionSpec("file.stage", "File", "Stage…", (), "settings", tip="Size and colour of the paper"),
+    ActionSpec(
+        "file.import",
+        "File",
+        "Import SVG…",
+        ("Ctrl+I",),
+        tip="Make an SVG drawing the keyframe at the playhead, in one style",
+    ),
+    ActionSpec(
+        "file.import_layers",
+        "File",
+        "Import SVG as Layers…",
+        ("Ctrl+Shift+I",),
+        tip="Add an SVG drawing as new layers, one for each style, with a keyframe at the playhead",
+    ),
     ActionSpec("file.export", "File", "Export Frames…", ("Ctrl+E",), "export"),
     _line("File"),
     ActionSpec("file.close", "File", "Close", ("Ctrl+W",)),
@@ -135,6 +149,20 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec(
         "key.delete", "Draw", "Delete Keyframe", ("Shift+F6",), tip="Take away the keyframe at the playhead"
     ),
+    ActionSpec(
+        "insert.letters",
+        "Insert",
+        "Letters…",
+        ("T",),
+        tip="Add the outlines of a text to the drawing at the playhead",
+    ),
+    ActionSpec(
+        "insert.reference",
+        "Insert",
+        "Reference Picture…",
+        tip="Lay a picture under the stage to draw over; it is never exported",
+    ),
+    ActionSpec("insert.no_reference", "Insert", "Remove Reference Picture"),
     ActionSpec("span.linear", "Span", "Linear", (), "", checkable=True, group="method"),
     ActionSpec("span.intrinsic", "Span", "Intrinsic", (), "", checkable=True, group="method"),
     ActionSpec("span.rigid", "Span", "Rigid", (), "", checkable=True, group="method"),
@@ -170,7 +198,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("help.keys", "Help", "Keys and Mouse", ("F1",)),
     ActionSpec("help.about", "Help", "About Inkbetween"),
 )
-MENUS = ("File", "Edit", "View", "Draw", "Span", "Samples", "Help")
+MENUS = ("File", "Edit", "View", "Draw", "Insert", "Span", "Samples", "Help")
 
 
 class ActionTable(QObject):

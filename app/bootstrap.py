@@ -4,17 +4,19 @@ import signal
 import sys
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QObject, Qt, QTimer
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QIcon
 from PySide6.QtWidgets import QApplication, QMenu
 
 import resources
 from app import editing, matching
+from app.canvas.reference import current_reference
 from app.dialogs.export import ExportDialog
 from app.dialogs.help import show_about, show_keys
 from app.dialogs.stage import StageDialog
 from app.editing import Clipboard
 from app.files import Files
+from app.incoming import Incoming
 from app.playback import Playback
 from app.preview.alternatives import AlternativesPreview
 from app.preview.spans import SpanPreview
@@ -63,6 +65,7 @@ class Editor(QObject):
             self.session, self.preview, self.ranked, self.view_state, self.playback, self.settings, theme
         )
         self.files = Files(self.window, self.session, self.settings, self.preview.with_answers, self.window.tell)
+        self.incoming = Incoming(self.window, self.session, self.settings)
         self.export_dialog: ExportDialog | None = None
         self.window.table.connect_all(self._runs())
         self._connect()
@@ -78,6 +81,7 @@ class Editor(QObject):
         return (
             self._file_runs()
             | self._edit_runs()
+            | self._insert_runs()
             | self._view_runs()
             | {name: lambda n=name: self.window.choose_tool(n) for name in self.window.tools}
             | self._key_runs()
@@ -91,12 +95,12 @@ class Editor(QObject):
             "file.save": files.save,
             "file.save_as": files.save_as,
             "file.stage": self.edit_stage,
+            "file.import": self.incoming.import_svg,
+            "file.import_layers": lambda: self.incoming.import_svg(as_layers=True),
             "file.export": self.export_frames,
             "file.close": files.new,
             "file.quit": self.window.close,
-            "help.keys": lambda: show_keys(
-                self.window, self.window.tools.values(), self.window.table.actions.values()
-            ),
+            "help.keys": lambda: show_keys(window, window.tools.values()),
             "help.about": lambda: show_about(window),
         }
 
@@ -111,6 +115,13 @@ class Editor(QObject):
             "edit.delete": lambda: editing.delete(session),
             "edit.select_all": lambda: editing.select_all(session),
             "edit.select_none": lambda: session.select(Selection()),
+        }
+
+    def _insert_runs(self):
+        return {
+            "insert.letters": self.incoming.insert_letters,
+            "insert.reference": self.incoming.choose_reference,
+            "insert.no_reference": self.window.reference_panel.remove_reference,
         }
 
     def _view_runs(self):
@@ -194,7 +205,8 @@ class Editor(QObject):
         window.canvas.playPressed.connect(self.playback.toggle)
         window.timeline.track.menuWanted.connect(self._show_key_menu)
         window.closeAsked.connect(self._on_close_asked)
-        window.fileDropped.connect(lambda name: self.files.open_path(Path(name)))
+        window.fileDropped.connect(lambda name: self.incoming.take(Path(name), self.files.open_path))
+        window.canvas.references.unreadable.connect(session.problem, Qt.ConnectionType.QueuedConnection)
         window.menus["File"].aboutToShow.connect(self._fill_recent)
         hints = QGuiApplication.styleHints()
         hints.colorSchemeChanged.connect(self._on_color_scheme)
@@ -220,6 +232,7 @@ class Editor(QObject):
         if before is not None and there:
             table[METHOD_ACTIONS[before.span.method]].setChecked(True)
         table["key.delete"].setEnabled(session.layer.keyframe_at(session.frame) is not None)
+        table["insert.no_reference"].setEnabled(current_reference(session) is not None)
         table["view.onion"].setChecked(options.onion)
         table["view.hues"].setChecked(options.hues)
         table["view.paths"].setChecked(options.paths)
@@ -315,6 +328,11 @@ class Editor(QObject):
         geometry = self.settings.blob("window/geometry")
         if geometry is not None:
             self.window.restoreGeometry(geometry)
+            return
+        screen = QGuiApplication.primaryScreen()
+        if screen is not None:  # a small laptop's screen is smaller than what we would like
+            room = screen.availableGeometry().size()
+            self.window.resize(self.window.size().boundedTo(room - QSize(40, 80)))
 
     def _on_close_asked(self, event: QCloseEvent) -> None:
         if not self.files.may_leave():
@@ -322,6 +340,7 @@ class Editor(QObject):
             return
         if self.export_dialog is not None:
             self.export_dialog.close()
+        self.incoming.stop()
         self.playback.stop()
         self.preview.stop()
         self.ranked.stop()
@@ -361,10 +380,10 @@ def run(path: str | None = None, *, sample: bool = False) -> int:
     app = make_application()
     editor = Editor()
     if path is not None:
-        opened = editor.files.open_sample(Path(path)) if sample else editor.files.open_path(Path(path))
-        if sample and opened:
-            first, second = editor.session.layer.frames()[:2]
-            editor.session.go_to((first + second) // 2)  # where the in-between is farthest from both
+        if sample:
+            editor.files.open_sample(Path(path))
+        else:
+            editor.files.open_path(Path(path))
     editor.window.show()
     signal.signal(signal.SIGINT, lambda *_: editor.window.close())
     beat = QTimer()  # Python sees Ctrl+C only when it runs now and then

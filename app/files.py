@@ -61,6 +61,9 @@ class Files:
         except InkbetweenError as e:
             self._tell(str(e), "error")
             return False
+        frames = self._session.layer.frames()
+        if len(frames) > 1:
+            self._session.go_to((frames[0] + frames[1]) // 2)  # where an in-between is to be seen
         return True
 
     def save(self) -> bool:

@@ -12,6 +12,7 @@ from app.commands import EditDocument, Step
 from core.errors import InkbetweenError
 from core.io.project import load, save
 from core.model.document import Document, Keyframe, Layer
+from core.model.references import with_absolute_references, with_relative_references
 
 UNDO_LIMIT = 200
 
@@ -328,7 +329,7 @@ class Session(QObject):
 
     def open(self, path: Path) -> None:
         """Open a file; raises InkbetweenError and keeps the open document if that fails."""
-        self._replace(load(path), path, None)
+        self._replace(with_absolute_references(load(path), path.parent), path, None)
 
     def save(self, path: Path, completed: Document | None = None) -> None:
         """Write the document, or `completed`: the same one with the solver's answers stored in it.
@@ -337,7 +338,7 @@ class Session(QObject):
         """
         if self._gesture is not None:
             self._gesture.commit()
-        save(completed or self._document, path)
+        save(with_relative_references(completed or self._document, path.parent), path)
         self.path, self.title = path, None
         self.undo_stack.setClean()
         self.fileChanged.emit()

@@ -157,7 +157,7 @@ QToolButton:hover {{ background: {t.raised}; border-color: {t.line}; }}
 QToolButton:pressed {{ background: {t.line}; }}
 QToolButton:checked {{ background: {t.accent}; color: {t.accent_text}; border-color: {t.accent}; }}
 QToolButton:focus, QPushButton:focus {{ border-color: {t.accent}; }}
-QToolButton[segment="true"] {{ padding: 5px 12px; min-height: 18px; }}
+QToolButton[segment="true"] {{ padding: 5px 6px; min-height: 18px; }}
 QToolButton[picture="true"] {{ background: {t.raised}; border-color: {t.line}; color: {t.muted};
     font-size: 10px; padding: 2px; }}
 QToolButton[picture="true"]:hover {{ border-color: {t.muted}; }}

@@ -21,6 +21,7 @@ from app.panels.drawing import DrawingPanel
 from app.panels.easing import EasingPanel
 from app.panels.messagebar import MessageBar
 from app.panels.parts import separator
+from app.panels.reference import ReferencePanel
 from app.panels.span import SpanPanel
 from app.panels.timeline import Timeline, action_button
 from app.playback import Playback
@@ -36,7 +37,7 @@ from app.tools.pin import PinTool
 from app.tools.select import SelectTool
 from app.view import ViewState
 
-SIDE_WIDTH = 300
+SIDE_WIDTH = 312
 TOOLBOX_WIDTH = 52
 
 
@@ -72,13 +73,14 @@ class Window(QMainWindow):
         self.span_panel = SpanPanel(session, view, self.table.actions, preview, self.alternatives_panel)
         self.easing_panel = EasingPanel(session, theme)
         self.drawing_panel = DrawingPanel(session, theme, *self._tolerance())
+        self.reference_panel = ReferencePanel(session)
         self.setCentralWidget(self._central())
         self.message_bar = MessageBar(self.canvas, theme)
         self._make_status_bar()
         self._make_menus()
         self.setAcceptDrops(True)
         self.resize(1440, 900)
-        self.setMinimumSize(900, 560)
+        self.setMinimumSize(1000, 560)
 
     # laying out
 
@@ -128,10 +130,11 @@ class Window(QMainWindow):
         outer = QStackedLayout(side)
         outer.setContentsMargins(1, 0, 0, 0)
         inner = QWidget()
+        inner.setFixedWidth(SIDE_WIDTH - 12)  # room for the scroll bar, so that it never covers anything
         column = QVBoxLayout(inner)
         column.setContentsMargins(0, 4, 0, 12)
         column.setSpacing(4)
-        for panel in (self.span_panel, self.easing_panel, self.drawing_panel):
+        for panel in (self.span_panel, self.easing_panel, self.drawing_panel, self.reference_panel):
             column.addWidget(panel)
             column.addWidget(separator())
         column.addStretch(1)

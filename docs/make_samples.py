@@ -144,7 +144,7 @@ def document(
         film = edits.put_drawing(film, 1, frame, drawing)
     frames = list(keyframes)
     for before, after in itertools.pairwise(frames):
-        film = edits.set_span(film, 1, before, easing=easing)
+        film = edits.set_span(film, 1, before, method="intrinsic", easing=easing)
         for i, marks in enumerate(anchors):
             a, b = keyframes[before][i], keyframes[after][i]
             for mark in marks:

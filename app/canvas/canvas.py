@@ -21,6 +21,7 @@ from app.canvas.items import (
 from app.canvas.papers import whole_area
 from app.canvas.paths import PathsItem, PinsItem
 from app.canvas.pins import PinMark, pin_marks
+from app.canvas.reference import ReferenceItem, ReferencePictures
 from app.canvas.tool import Pointer, Tool
 from app.painting import ROUNDS, Thinner
 from app.preview.spans import SpanPreview
@@ -56,6 +57,7 @@ class Canvas(pg.GraphicsView):
         self.tool: Tool | None = None
         self.hover: QPointF | None = None
         self.thinner = Thinner()
+        self.references = ReferencePictures(self)
         self._plans = PlanCache()
         self._content: Content | None = None
         self._pin_marks: tuple[Content, tuple[PinMark, ...]] | None = None
@@ -76,6 +78,7 @@ class Canvas(pg.GraphicsView):
         kinds = (PaperItem, OnionItem, FilmItem, ShapesItem, LinesItem, LabelsItem, HandlesItem, ToolItem)
         self._items = [kind(self, 10 * z) for z, kind in enumerate(kinds)]
         self._items += [PathsItem(self, 45), PinsItem(self, 65)]
+        self._items.append(ReferenceItem(self, 2))
         self._items.append(OthersItem(self, 5, in_front=False))
         self._items.append(OthersItem(self, 35, in_front=True))
         for item in self._items:

@@ -19,6 +19,7 @@ commands:
   demo                  open the editor on a sample; without a display, export the sample's frames
   export FILE OUT_DIR   write the frames as numbered PNG pictures
   info FILE             say what is in a project
+  new BEFORE AFTER      make a project of two SVG drawings
 
 options:
   -h, --help            show this and exit

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import resources
 from app.cli.display import Problem, check_window_libraries, has_display, without_qt
+from app.cli.new import new_parser
 
 if TYPE_CHECKING:  # numpy comes with core: not for a usage error
     from app.export.frames import ExportSettings
@@ -80,7 +81,7 @@ def _editor_parser() -> argparse.ArgumentParser:
     return parser
 
 
-COMMANDS = {"demo": _demo_parser, "export": _export_parser, "info": _info_parser}
+COMMANDS = {"demo": _demo_parser, "export": _export_parser, "info": _info_parser, "new": new_parser}
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -4,16 +4,18 @@ from collections.abc import Iterable
 from importlib.metadata import version
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QMessageBox, QWidget
 
+from app.actions import ACTIONS, ActionSpec
 from app.canvas.tool import Tool
 
+KEY_NAMES = {",": ", (comma)", ".": ". (point)", "Ctrl+,": "Ctrl + comma", "Ctrl+.": "Ctrl + point"}
 
-def show_keys(parent: QWidget, tools: Iterable[Tool], actions: Iterable[QAction]) -> None:
+
+def show_keys(parent: QWidget, tools: Iterable[Tool]) -> None:
     """List every tool's hint and every key."""
     hints = "".join(f"<p><b>{t.name} ({t.shortcut})</b><br>{t.hint.split(': ', 1)[1]}</p>" for t in tools)
-    rows = [_row(a) for a in actions if not a.shortcut().isEmpty()]
+    rows = [_row(spec) for spec in ACTIONS if spec.keys]
     half = (len(rows) + 1) // 2
     columns = "".join(f"<td><table>{''.join(part)}</table></td>" for part in (rows[:half], rows[half:]))
     canvas = "<p>Canvas: Space + drag or the middle button pans, the wheel zooms at the pointer.</p>"
@@ -31,9 +33,9 @@ def show_about(parent: QWidget) -> None:
     )
 
 
-def _row(action: QAction) -> str:
-    keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
-    return f"<tr><td><b>{keys}</b>&nbsp;&nbsp;</td><td>{action.text()}</td></tr>"
+def _row(spec: ActionSpec) -> str:
+    keys = " or ".join(KEY_NAMES.get(k, k) for k in spec.keys)
+    return f"<tr><td><b>{keys}</b>&nbsp;&nbsp;</td><td>{spec.text.rstrip('…')}</td></tr>"
 
 
 def _show(parent: QWidget, title: str, text: str) -> None:

@@ -44,7 +44,7 @@ class EasingPlot(QWidget):
         self.setToolTip("Drag the two handles; the ticks on the right are the frames of the span")
 
     def sizeHint(self) -> QSize:
-        return QSize(260, 132)
+        return QSize(240, 124)
 
     def show_easing(self, easing: Easing, frames: tuple[int, int], ratio: float | None) -> None:
         if (easing, frames, ratio) != (self.easing, self.frames, self.ratio):

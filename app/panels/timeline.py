@@ -3,7 +3,7 @@
 from fractions import Fraction
 
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QAction
+from PySide6.QtGui import QAction, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QSlider, QToolButton, QVBoxLayout, QWidget
 
 from app.panels.parts import label, number_field, separator
@@ -15,6 +15,9 @@ from app.view import ViewState
 from core.errors import InkbetweenError
 from core.model.document import LONGEST, as_rate, ratio_in_span
 from core.model.edits import set_length, set_rate
+
+ROOMY = 860
+"""Width in px from which the onion skin's fields fit beside the rest."""
 
 
 class Timeline(QWidget):
@@ -61,8 +64,15 @@ class Timeline(QWidget):
         row.addWidget(self.t_label)
         self._add_frame_fields(row)
         row.addStretch(1)
-        self._add_onion_fields(row, actions["view.onion"])
+        row.addWidget(action_button(actions["view.onion"]))
+        self.onion_fields = self._onion_fields()
+        row.addWidget(self.onion_fields)
         return bar
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """In a narrow window the frame fields are worth more than those of the onion skin."""
+        self.onion_fields.setVisible(event.size().width() >= ROOMY)
+        super().resizeEvent(event)
 
     def _add_frame_fields(self, row: QHBoxLayout) -> None:
         row.addWidget(label("frame", "muted"))
@@ -80,8 +90,11 @@ class Timeline(QWidget):
         row.addWidget(self.rate_field)
         row.addWidget(label("fps", "muted"))
 
-    def _add_onion_fields(self, row: QHBoxLayout, toggle: QAction) -> None:
-        row.addWidget(action_button(toggle))
+    def _onion_fields(self) -> QWidget:
+        fields = QWidget()
+        row = QHBoxLayout(fields)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(4)
         self.onion_before = number_field(
             0, 12, "Onion skin: frames before, red", lambda n: self.view_state.set(onion_before=n), 40
         )
@@ -101,6 +114,7 @@ class Timeline(QWidget):
             self.onion_strength,
         ):
             row.addWidget(widget)
+        return fields
 
     def set_theme(self, theme: Theme) -> None:
         self.theme = theme
@@ -124,7 +138,7 @@ class Timeline(QWidget):
     def _t_text(self) -> str:
         before, after = self.session.span_keyframes()
         if before is None or after is None:
-            return "t –"
+            return ""
         t = before.span.easing.t_at(ratio_in_span(before, after, self.session.frame))
         return f"t {float(t):.2f}"
 

@@ -234,8 +234,8 @@ def decode(content: bytes) -> Document:
     """Return the document in the bytes of a project file; raises FileFormatError that names the place."""
     try:
         head = msgspec.json.decode(content, type=_Head)
-    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as e:
-        raise FileFormatError(f"it is no Inkbetween project, or it is damaged ({e})") from None
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+        raise FileFormatError("it is no Inkbetween project, or it is damaged") from None
     if head.format != FORMAT:
         raise FileFormatError("it is no Inkbetween project")
     if head.version > VERSION:

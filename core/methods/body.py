@@ -22,8 +22,11 @@ LOOSE = "fine detail leaves the interior so as not to cross itself"
 LOOSENESS = (0.1, 0.3, 1.0, 3.0, 10.0)
 """How far along the outline detail may leave the cage, in sizes: the first with no crossings is taken."""
 
-TESTED = np.arange(1, 10) / 10
-"""Times at which in-betweens are tested for crossings."""
+FIRM = 1.0
+"""Looseness up to which no coarser cage is tried."""
+
+MANY = 800
+"""Vertices from which on in-betweens are tested for crossings at 7 times and not at 15."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +74,8 @@ class Body:
         The boundary of the mesh.
     spin : complex
         By which the mesh must be turned to lie as the drawing does.
+    looseness : float
+        One of `LOOSENESS`.
     crossings : int
         Found at the times tested.
     note : str
@@ -82,8 +87,9 @@ class Body:
     backwards: bool
     boundary: Cage
     spin: complex
-    crossings: int = 0
-    note: str = ""
+    looseness: float
+    crossings: int
+    note: str
 
     def forms(self, t: FloatArray) -> ComplexArray:
         """Vertices (T, n) at the times `t` (T,)."""
@@ -107,50 +113,97 @@ def plan_body(
     Notes
     -----
     The thinner drawing is meshed: a mesh of the fatter one would be pressed together and fold. Which that is does
-    not depend on which keyframe comes first.
+    not depend on which keyframe comes first. The first level is taken whose mesh can be carried over without
+    folds, and whose in-betweens do not cross themselves with the detail held fairly firmly; else the best one.
     """
-    sizes = [np.sqrt(_area(p, rows)) for p in (a, b)]
-    around = [sum(float(getattr(h, name).sum()) for h in outlines) for name in ("before", "after")]
-    if min(sizes) <= 1e-9 * max(around):
-        return None
-    backwards = around[1] / sizes[1] > around[0] / sizes[0]
-    if backwards:
-        a, b, sizes = b, a, sizes[::-1]
-        outlines = [_reversed(h) for h in outlines]
-    found = _matched(a, b, rows, outlines, sizes)
-    if found is None:
-        return None
-    boundary, carried, spin, note = found
-    try:
-        interior = travel(carried, *sizes)
-    except (RuntimeError, ArithmeticError):  # a matrix that is singular to rounding
-        return None
-    turns = carried.rim_turn[boundary.places]
-    return _fitted(interior, boundary, (outlines, rows, turns), backwards, spin, sum(sizes) / 2, note)
-
-
-def _matched(
-    a: ComplexArray,
-    b: ComplexArray,
-    rows: Sequence[slice],
-    outlines: Sequence[Headings],
-    sizes: Sequence[float],
-) -> tuple[Cage, Carried, complex, str] | None:
-    """Return the first level whose mesh can be carried over without folds."""
-    m, o = ((p - p.mean()) / size for p, size in zip((a, b), sizes, strict=True))
-    # the same mesh, to rounding, however the drawing lies: towards the vertex farthest out is x
-    far = int((np.abs(m) ** 2 + np.abs(o) ** 2).argmax())
-    spin = complex(m[far] / abs(m[far])) if m[far] != 0 else 1.0
-    m, o = (np.round(p / spin, 12) for p in (m, o))
-    means = [h.mean_turn() for h in outlines]
+    pair = _Pair.of(a, b, rows, outlines)
+    best: Body | None = None
     for level in LEVELS:
-        boundary = cage(m, o, rows, level.tolerance, level.most)
-        if boundary is None:
+        body = pair.at(level) if pair is not None else None
+        if body is None:
             continue
-        carried = _unfolded(boundary, means, level)
-        if carried is not None:
-            return boundary, carried, spin, level.note
-    return None
+        if best is None or (body.crossings, body.looseness) < (best.crossings, best.looseness):
+            best = body
+        if best.crossings == 0 and best.looseness <= FIRM:
+            break
+    return best
+
+
+@dataclass(frozen=True, eq=False)
+class _Pair:
+    """An interior in both keyframes, the one to be meshed first.
+
+    Attributes
+    ----------
+    rows, outlines : sequences of slice and Headings
+    sizes : (2,) float array
+        Roots of the areas, px.
+    meshed, other : (n,) complex array
+        Vertices for areas of 1.
+    spin : complex
+        By which these must be turned to lie as the drawing does.
+    backwards : bool
+        Whether the keyframe after comes first.
+    """
+
+    rows: Sequence[slice]
+    outlines: Sequence[Headings]
+    sizes: FloatArray
+    meshed: ComplexArray
+    other: ComplexArray
+    spin: complex
+    backwards: bool
+
+    @classmethod
+    def of(
+        cls, a: ComplexArray, b: ComplexArray, rows: Sequence[slice], outlines: Sequence[Headings]
+    ) -> "_Pair | None":
+        """Order and scale the keyframes; None where one has all but no area."""
+        sizes = np.sqrt([_area(p, rows) for p in (a, b)])
+        around = np.array([sum(float(getattr(h, name).sum()) for h in outlines) for name in ("before", "after")])
+        if sizes.min() <= 1e-9 * around.max():
+            return None
+        backwards = bool(around[1] / sizes[1] > around[0] / sizes[0])
+        if backwards:
+            a, b, sizes = b, a, sizes[::-1]
+            outlines = [_reversed(h) for h in outlines]
+        m, o = ((p - p.mean()) / size for p, size in zip((a, b), sizes, strict=True))
+        # the same mesh, to rounding, however the drawing lies: towards the vertex farthest out is x
+        far = int((np.abs(m) ** 2 + np.abs(o) ** 2).argmax())
+        spin = complex(m[far] / abs(m[far])) if m[far] != 0 else 1.0
+        return cls(rows, outlines, sizes, np.round(m / spin, 12), np.round(o / spin, 12), spin, backwards)
+
+    def at(self, level: Level) -> Body | None:
+        """Plan the interior with a cage as fine as the level says; None where it stays folded."""
+        boundary = cage(self.meshed, self.other, self.rows, level.tolerance, level.most)
+        if boundary is None:
+            return None
+        carried = _unfolded(boundary, [h.mean_turn() for h in self.outlines], level)
+        if carried is None:
+            return None
+        try:
+            interior = travel(carried, *self.sizes)
+        except (RuntimeError, ArithmeticError):  # a matrix that is singular to rounding
+            return None
+        return self.fitted(interior, boundary, carried.rim_turn[boundary.places], level.note)
+
+    def fitted(self, interior: Interior, boundary: Cage, turns: FloatArray, note: str) -> Body | None:
+        """Attach the detail as firmly as it can be without crossings at the times tested."""
+        best: Body | None = None
+        for loose in LOOSENESS:
+            reach = loose * float(self.sizes.mean())
+            detail = attach(self.outlines, self.rows, boundary.vertices, turns, reach)
+            said = "; ".join(n for n in (note, LOOSE if loose > LOOSENESS[0] else "") if n)
+            body = Body(interior, detail, self.backwards, boundary, self.spin, loose, 0, said)
+            frames = body.forms(tested(len(self.meshed)))
+            if not np.isfinite(frames).all():
+                return None
+            crossings = len(crossing_edges(frames, self.rows))
+            if best is None or crossings < best.crossings:
+                best = replace(body, crossings=crossings)
+            if not crossings:
+                break
+        return best
 
 
 def _unfolded(boundary: Cage, means: Sequence[float], level: Level) -> Carried | None:
@@ -167,37 +220,15 @@ def _unfolded(boundary: Cage, means: Sequence[float], level: Level) -> Carried |
     return replace(carried, image=image)
 
 
-def _fitted(
-    interior: Interior,
-    boundary: Cage,
-    edges: tuple[Sequence[Headings], Sequence[slice], FloatArray],
-    backwards: bool,
-    spin: complex,
-    size: float,
-    note: str,
-) -> Body | None:
-    """Attach the detail as firmly as it can be without crossings at the times tested."""
-    outlines, rows, turns = edges
-    best: Body | None = None
-    for loose in LOOSENESS:
-        detail = attach(outlines, rows, boundary.vertices, turns, loose * size)
-        body = Body(interior, detail, backwards, boundary, spin)
-        frames = body.forms(TESTED)
-        if not np.isfinite(frames).all():
-            return None
-        crossings = len(crossing_edges(frames, rows))
-        said = "; ".join(n for n in (note, LOOSE if loose > LOOSENESS[0] else "") if n)
-        if best is None or crossings < best.crossings:
-            best = Body(interior, detail, backwards, boundary, spin, crossings, said)
-        if not crossings:
-            break
-    return best
-
-
 def _area(p: ComplexArray, rows: Sequence[slice]) -> float:
     """Area of the first outline less that of its holes."""
     outer, *holes = (abs(signed_area(p[r])) for r in rows)
     return max(outer - sum(holes), 0.0)
+
+
+def tested(count: int) -> FloatArray:
+    """Times at which in-betweens of so many vertices are tested for crossings."""
+    return np.linspace(0, 1, 9 if count >= MANY else 17)[1:-1]
 
 
 def _reversed(h: Headings) -> Headings:

@@ -73,6 +73,10 @@ class Headings:
         shares: FloatArray = (edge + np.roll(edge, 1)) / 2
         return shares
 
+    def only(self, edges: BoolArray) -> "Headings":
+        """Return some of the edges."""
+        return Headings(self.before[edges], self.after[edges], self.start[edges], self.turn[edges], self.known)
+
     def turned(self, radians: float) -> "Headings":
         """Return the same edges with `radians`, a number of whole turns, added to every turn."""
         return Headings(self.before, self.after, self.start, self.turn + radians, self.known)

@@ -35,8 +35,11 @@ ASTRAY = 1.2
 """Radians by which an angle may differ from the triangle's own; at a right angle the triangle would collapse."""
 
 
-BEND = 1.5
+BEND = 2.0
 """Widths of the drawing over which its turning accounts for the strain of a bend."""
+
+STRANGE = 0.5
+"""Mean strain above which the drawing becomes another one rather than bends."""
 
 BULGE = 3.0
 """Exponent of the mean of the stretches, before and after, in a bend; 1 where there is none."""
@@ -164,7 +167,8 @@ def bends(carried: Carried, turn: FloatArray, stretch: FloatArray) -> FloatArray
     """How much of the strain of each triangle is that of a bend, (m,), 0 to 1.
 
     A strip that bends is strained by its change of direction over the distance from its middle; what is
-    strained more than its neighbourhood turns is stretched, as the letters of a wider font are.
+    strained more than its neighbourhood turns is stretched, as the letters of a wider font are. Nothing bends
+    where the drawing as a whole becomes another one.
     """
     pairs, _ = carried.mesh.neighbours
     count = len(turn)
@@ -174,7 +178,9 @@ def bends(carried: Carried, turn: FloatArray, stretch: FloatArray) -> FloatArray
     near = np.bincount(both, np.repeat(steep, 2), count) / np.maximum(np.bincount(both, minlength=count), 1)
     bent = 2 * near * (BEND * carried.width) ** 2
     strain = (np.log(stretch) ** 2).sum(axis=0)
-    return np.asarray(bent**2 / (bent**2 + strain**2 + LEAST))
+    mass = carried.elements.areas * (1 + stretch[0] * stretch[1])
+    change = float(mass @ strain / mass.sum()) / STRANGE**2
+    return np.asarray(bent**2 / (bent**2 + strain**2 + LEAST) / (1 + change))
 
 
 def even_turns(carried: Carried, maps: Maps) -> FloatArray:

@@ -13,9 +13,9 @@ from core.geometry.outline import FloatArray
 from core.methods.assembly import Assembly, assemble, in_a_row
 from core.methods.bending import BentBody, bend
 from core.methods.bodies import bodies
-from core.methods.body import TESTED, Body, plan_body
+from core.methods.body import Body, plan_body, tested
 from core.methods.bridges import Bridge
-from core.methods.headings import ComplexArray
+from core.methods.headings import BoolArray, ComplexArray, Headings
 from core.methods.intrinsic import IntrinsicPaths
 from core.methods.loops import as_pairs, crossing_edges
 from core.methods.placement import Placement
@@ -35,10 +35,23 @@ class Part:
     rows : (n,) int array
         Their vertices in the drawing.
     paths : Body or IntrinsicPaths
+    source : (n,) int array
+        The vertex of the paths that each of them is; doubled vertices are only one there.
     """
 
     rows: IndexArray
     paths: Body | IntrinsicPaths
+    source: IndexArray
+
+    def forms(self, t: FloatArray) -> ComplexArray:
+        """Vertices (T, n) at the times `t` (T,), up to a shift."""
+        return self.paths.forms(t)[:, self.source]
+
+    def gathered(self, weights: FloatArray) -> FloatArray:
+        """Weights (k, all vertices of the drawing) as those of the vertices of the paths."""
+        out = np.zeros((len(weights), int(self.source.max()) + 1))
+        np.add.at(out.T, self.source, weights[:, self.rows].T)
+        return out
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +74,7 @@ class RigidBending:
         for number, part in enumerate(paths.parts):
             own = np.flatnonzero(np.isclose(weights[:, part.rows].sum(axis=1), 1.0))
             if len(own) and isinstance(part.paths, Body):
-                bent.append((number, own, bend(part.paths, weights[np.ix_(own, part.rows)])))
+                bent.append((number, own, bend(part.paths, part.gathered(weights[own]))))
         return cls(paths, tuple(bent))
 
     def near(self, t: FloatArray, frames: ComplexArray, wanted: ComplexArray) -> ComplexArray:
@@ -69,7 +82,8 @@ class RigidBending:
         frames = frames.copy()
         done = set()
         for number, own, body in self.bent:
-            frames[:, self.paths.parts[number].rows] = body.forms(t, wanted[:, own])
+            part = self.paths.parts[number]
+            frames[:, part.rows] = body.forms(t, wanted[:, own])[:, part.source]
             done.add(number)
         for number, bridge, rows in self.paths.moves:
             if number not in done:
@@ -106,7 +120,7 @@ class RigidPaths:
 
     def _fill(self, frames: ComplexArray, t: FloatArray) -> None:
         for part in self.parts:
-            frames[:, part.rows] = part.paths.forms(t)
+            frames[:, part.rows] = part.forms(t)
         for _, bridge, rows in self.moves:
             frames[:, rows] += bridge.shift(frames, t)[:, None]
         frames += (self.placement.path(t) - frames @ self.placement.weights)[:, None]
@@ -140,23 +154,23 @@ def rigid_paths(
         assembly = assemble(pairs, turns=turns, bodies=_numbers(interiors, len(pairs)))
     planned = [_planned(assembly, own) for own in interiors]
     note = _note(planned, sum(plain.closed) - sum(map(len, interiors)))
-    found = {own[0]: (own, body) for own, body in zip(interiors, planned, strict=True) if body is not None}
+    found = [(own, body) for own, body in zip(interiors, planned, strict=True) if body is not None]
     if not found:
         return IntrinsicPaths.of(plain), note
-    return _joined(assembly, list(found.values())), note
+    return _joined(assembly, found), note
 
 
 def _planned(assembly: Assembly, own: list[int]) -> Body | None:
     """Plan one interior; None also where the intrinsic method has fewer crossings."""
-    rows = [assembly.rows[k] for k in own]
-    outlines = [assembly.outlines[k] for k in own]
-    a, b = (np.concatenate([p[r] for r in rows]) for p in (assembly.a, assembly.b))
-    local = in_a_row([r.stop - r.start for r in rows])
+    outlines = [assembly.outlines[k].only(_single(assembly.outlines[k])) for k in own]
+    kept = np.concatenate([assembly.rows[k].start + np.flatnonzero(_single(assembly.outlines[k])) for k in own])
+    a, b = assembly.a[kept], assembly.b[kept]
+    local = in_a_row([len(h.turn) for h in outlines])
     body = plan_body(a, b, local, outlines)
     if body is None or not body.crossings:
         return body
     plain = IntrinsicPaths.of(assemble([(as_pairs(a[r]), as_pairs(b[r]), True) for r in local]))
-    points = plain.evaluate(TESTED)
+    points = plain.evaluate(tested(len(a)))
     frames = points[..., 0] + 1j * points[..., 1]
     return None if len(crossing_edges(frames, local)) < body.crossings else body
 
@@ -167,10 +181,11 @@ def _joined(assembly: Assembly, found: list[tuple[list[int], Body]]) -> RigidPat
     part_of = np.full(len(assembly.rows), -1)
     for own, body in found:
         part_of[own] = len(parts)
-        parts.append(Part(_indices(assembly.rows, own), body))
+        parts.append(Part(_indices(assembly.rows, own), body, _sources([assembly.outlines[k] for k in own])))
     for k in np.flatnonzero(part_of < 0).tolist():
         part_of[k] = len(parts)
-        parts.append(Part(_indices(assembly.rows, [k]), IntrinsicPaths.of(_alone(assembly, k))))
+        rows = _indices(assembly.rows, [k])
+        parts.append(Part(rows, IntrinsicPaths.of(_alone(assembly, k)), rows - rows[0]))
     of_row = {row.start: int(part) for row, part in zip(assembly.rows, part_of, strict=True)}
     moves = [
         (of_row[bridge.carried.start], bridge, parts[of_row[bridge.carried.start]].rows)
@@ -178,6 +193,22 @@ def _joined(assembly: Assembly, found: list[tuple[list[int], Body]]) -> RigidPat
         if of_row[bridge.carried.start] != of_row[bridge.carrier.start]
     ]
     return RigidPaths(len(assembly.a), tuple(parts), tuple(moves), assembly.placement)
+
+
+def _single(outline: Headings) -> BoolArray:
+    """Which vertices of a closed outline are not the very next one too."""
+    return (outline.before > 0) | (outline.after > 0)
+
+
+def _sources(outlines: Sequence[Headings]) -> IndexArray:
+    """Number of each vertex among the single ones, that of the next one where it is doubled."""
+    found, first = [], 0
+    for outline in outlines:
+        single = _single(outline)
+        count = int(single.sum())
+        found.append(first + (np.cumsum(single) - single) % count)
+        first += count
+    return np.concatenate(found)
 
 
 def _alone(assembly: Assembly, k: int) -> Assembly:

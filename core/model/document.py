@@ -14,7 +14,6 @@ from core.methods.plan import METHODS
 from core.model.drawing import Color, Drawing, as_color, check_id
 from core.model.easing import Easing
 from core.model.pins import SpanPin
-from core.model.solving import AUTO
 
 LARGEST_STAGE = 16_384
 LONGEST = 100_000
@@ -22,6 +21,9 @@ FASTEST = 1000
 MOST_TURNS = 100
 MOST_PINS = 200
 LONGEST_NAME = 1000
+AUTO = "auto"
+"""Not a method of its own: the better one of rigid and intrinsic."""
+
 LONGEST_PATH = 4096
 FINEST_RATE = 2**31 - 1
 """Largest upper or lower number of a frame rate."""

@@ -46,6 +46,7 @@ Mine = Callable[[OutlinePair], int]
 
 __all__ = [
     "add_anchor",
+    "add_layer",
     "add_outline",
     "add_pin",
     "choose_correspondence",
@@ -92,6 +93,13 @@ def set_rate(document: Document, rate: Fraction) -> Document:
 def set_length(document: Document, length: int) -> Document:
     """Set the number of frames; keyframes behind the end are kept."""
     return document if length == document.length else replace(document, length=length)
+
+
+def add_layer(document: Document, name: str) -> Document:
+    """Add an empty layer in front of all others."""
+    taken = {layer.id for layer in document.layers}
+    free = next(i for i in itertools.count(1) if i not in taken)
+    return replace(document, layers=(*document.layers, Layer(free, name)))
 
 
 def set_layer(

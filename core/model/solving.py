@@ -9,9 +9,9 @@ from core.certificate import SEVERITIES, certify_drawing
 from core.geometry.outline import FloatArray
 from core.methods.pins import Pin, PinnedPaths
 from core.methods.plan import AlignedPair, DrawingPlan, plan_drawing
+from core.model.document import AUTO
 from core.repair.plan import RepairedDrawingPlan, repair_drawing
 
-AUTO = "auto"
 CANDIDATES = ("rigid", "intrinsic")
 """What auto chooses from; the first one wins a tie."""
 
@@ -133,12 +133,21 @@ def _best(pairs: Sequence[AlignedPair], turns: int, pins: Sequence[Pin]) -> Path
 
 def _mark(plan: DrawingPlan, pairs: Sequence[AlignedPair]) -> tuple[tuple[int, ...], float]:
     """Return the numbers of problems, errors first, and the mean of the largest stretch."""
+    whole = [i for i, p in enumerate(pairs) if _extends(p.left) and _extends(p.right)]
+    if not whole:  # what grows out of a point or shrinks into one has nothing to compare with
+        return (0, 0), 0.0
+    frames = plan.evaluate(LOOKS)
     certificate = certify_drawing(
-        plan.evaluate(LOOKS),
-        [p.closed for p in pairs],
-        [p.left for p in pairs],
-        [p.right for p in pairs],
+        [frames[i] for i in whole],
+        [pairs[i].closed for i in whole],
+        [pairs[i].left for i in whole],
+        [pairs[i].right for i in whole],
         times=LOOKS,
     )
     found = [p.severity for p in certificate.problems]
     return tuple(found.count(s) for s in SEVERITIES[:2]), float(certificate.stretch.mean())
+
+
+def _extends(points: FloatArray) -> bool:
+    """Whether an outline is more than a point."""
+    return bool((points != points[0]).any())

@@ -3,9 +3,10 @@
 from collections.abc import Callable, Iterator
 
 import numpy as np
+import scipy.sparse as sp
 from scipy.optimize import linprog
 
-from core.geometry.outline import FloatArray, signed_area
+from core.geometry.outline import signed_area
 from core.repair.chains import BoolArray, ComplexArray, as_points
 from core.repair.contacts import clear_moves
 from core.repair.descent import Field, Metric, descend
@@ -103,7 +104,7 @@ class Simplification:
 
     def _step(self) -> None:
         field, z = self._field, self.place
-        metric = Metric(field.springs * self._duration + _diagonal(field.mass))
+        metric = Metric(field.springs * self._duration + sp.diags(field.mass))
         aim = metric.solve(field.mass * z)
         weight = self._duration * STIFFNESS
         places = descend(field, z, aim, metric=metric, weight=weight, steps=6, smallest=1e-8)
@@ -116,12 +117,6 @@ class Simplification:
         middle = places[-1].mean()
         scale = np.sqrt(_area(z) / _area(places[-1]))
         self.places += [*places, middle + scale * (places[-1] - middle)]
-
-
-def _diagonal(mass: FloatArray) -> object:
-    from scipy.sparse import diags
-
-    return diags(mass)
 
 
 def _area(z: ComplexArray) -> float:

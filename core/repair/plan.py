@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +15,7 @@ from core.repair.chains import Chains, ComplexArray, as_points
 from core.repair.descent import Field
 from core.repair.doubled import spread
 from core.repair.join import Sketch
+from core.repair.march import distance
 from core.repair.route import Course, route
 from core.repair.survey import TICKS
 
@@ -45,6 +47,18 @@ class RepairedDrawingPlan:
     def changed(self) -> bool:
         """Whether any in-between is not the method's own."""
         return self.course is not None
+
+    @cached_property
+    def deviation(self) -> float:
+        """Mean over time of the root mean square distance from the method's own vertices, in sizes of the drawing.
+
+        Beyond a few hundredths the path is so tangled that another method, repaired, looks better.
+        """
+        if self.course is None:
+            return 0.0
+        times = np.linspace(0.0, 1.0, 65)
+        both = (_row([plan.evaluate(times)[k] for k in self.parts]) for plan in (self, self.drawing))
+        return float(distance(*both).mean()) / self.course.scale
 
     @property
     def pairs(self) -> tuple[AlignedPair, ...]:
@@ -79,6 +93,11 @@ class RepairedPlan:
     def changed(self) -> bool:
         """Whether any in-between is not the method's own."""
         return self.drawing.changed
+
+    @property
+    def deviation(self) -> float:
+        """How far the in-betweens are bent; see `RepairedDrawingPlan.deviation`."""
+        return self.drawing.deviation
 
     @property
     def notes(self) -> tuple[str, ...]:

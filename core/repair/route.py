@@ -1,7 +1,7 @@
 """The whole way from one keyframe to the other: along the wished path, and round what is in the way."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,12 +11,19 @@ from core.repair.chains import BoolArray, ComplexArray
 from core.repair.contacts import clear_moves
 from core.repair.descent import Field
 from core.repair.join import Sketch, join
-from core.repair.march import March, best_change, march
+from core.repair.march import March, best_change, distance, march
 from core.repair.survey import TICKS, Path, Terrain, runs, survey, terrain
+from core.repair.tighten import tighten
 from core.repair.timing import FILLED, MOST_JUMP, durations, jumps, move_lengths, speed_limit
 
 OPENING = 1 / 4096
 """Time in which doubled vertices part."""
+
+WORTH = 0.01
+"""Sizes of the drawing: a detour that deviates less on the whole is not pulled tighter."""
+
+PULLS = 3
+"""Times that detours are pulled tight and timed anew."""
 
 MARGIN = 2
 """Ticks by which a run of bad moves is widened at most to reach frames that feel no barrier."""
@@ -147,6 +154,25 @@ class _Repair:
         wished = [np.full(len(before), 1 / TICKS), self.wished, np.full(len(after), 1 / TICKS)]
         return _Repair(first, last, np.concatenate([before, self.places, after]), np.concatenate(wished))
 
+    def tightened(self, field: Field, path: Path, limit: float) -> "_Repair":
+        """Pull the places towards the path, as it is when they are passed, as long as that brings them nearer."""
+        best, off = self, self.deviation(path, limit)
+        for _ in range(PULLS):
+            if off < WORTH:
+                break
+            times = best.detour(limit).times
+            pulled = replace(best, places=tighten(field, times, best.places, path(times)), wished=np.diff(times))
+            now = pulled.deviation(path, limit)
+            if now >= off:
+                break
+            best, off = pulled, now
+        return best
+
+    def deviation(self, path: Path, limit: float) -> float:
+        """Root mean square distance from the path, in sizes."""
+        times = np.linspace(self.first, self.last, 4 * (self.last - self.first) + 1) / TICKS
+        return float(np.sqrt((distance(self.detour(limit).at(times), path(times)) ** 2).mean()))
+
     def detour(self, limit: float) -> Detour:
         """Say when to be where."""
         whole = (self.last - self.first) / TICKS
@@ -193,7 +219,7 @@ def route(
         if found is None:
             return Route((), whole=False)
         repairs.append(_Repair(first, last, *found))
-    detours = _timed(repairs, ground.frames)
+    detours = _timed(field, path, repairs, ground.frames)
     detours += [_chord(ground, i, j) for i, j in chords if not any(_within(d, i, j) for d in detours)]
     sound = all(clear_moves(field.chains, d.places[:-1], d.places[1:]).all() for d in detours)
     return Route(tuple(sorted(detours, key=lambda d: float(d.times[0]))), whole=sound)
@@ -269,7 +295,7 @@ def _timed_legs(walked: March, last: int) -> tuple[list[ComplexArray], list[floa
     return places, taken
 
 
-def _timed(repairs: Sequence[_Repair], frames: ComplexArray) -> list[Detour]:
+def _timed(field: Field, path: Path, repairs: Sequence[_Repair], frames: ComplexArray) -> list[Detour]:
     """Give every repair its time: as much of its neighbourhood as it needs, up to the repair next to it."""
     limit = speed_limit(frames)
     found: list[_Repair] = []
@@ -277,6 +303,7 @@ def _timed(repairs: Sequence[_Repair], frames: ComplexArray) -> list[Detour]:
         low = found[-1].last if found else 0
         high = repairs[k + 1].first if k + 1 < len(repairs) else TICKS
         found.append(repair.widened(frames, low, high, limit))
+    found = [repair.tightened(field, path, limit) for repair in found]
     detours = [repair.detour(limit) for repair in found]
     if jumps(lambda t: _mixed(detours, frames, t)) <= MOST_JUMP:
         return detours

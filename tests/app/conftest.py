@@ -1,5 +1,6 @@
 """The real window, driven as a person drives it: by mouse and key events on the widgets."""
 
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -110,6 +111,16 @@ def move_pointer(widget: QWidget, at: QPoint, held: Qt.KeyboardModifier, button:
         held,
     )
     QApplication.sendEvent(widget, event)
+
+
+@pytest.fixture(autouse=True)
+def no_thread_is_left() -> Iterator[None]:
+    """Fail a test that leaves one of our threads running."""
+    before = set(threading.enumerate())
+    yield
+    ours = ("preview", "export", "png", "import")
+    left = [t.name for t in set(threading.enumerate()) - before if t.name.startswith(ours)]
+    assert left == []
 
 
 @pytest.fixture(scope="session")

@@ -109,13 +109,13 @@ def test_info_says_what_is_in_a_project(project, capsys):
     said = capsys.readouterr().out
     assert "64 x 48 px, transparent" in said
     assert "6 frames, 24 a second" in said
-    assert "keyframe at 1: outlines 2, vertices 8, then intrinsic\n" in said
+    assert "keyframe at 1: outlines 2, vertices 8, then auto\n" in said
     assert said.endswith("keyframe at 6: outlines 2, vertices 8\n")
 
 
 def test_info_for_programs_is_json(project, capsys):
     assert main(["info", str(project), "--json"]) == 0
-    keyframe = {"outlines": 2, "vertices": 8, "method": "intrinsic"}
+    keyframe = {"outlines": 2, "vertices": 8, "method": "auto"}
     assert json.loads(capsys.readouterr().out) == {
         "file": str(project),
         "stage": {"width": 64, "height": 48, "background": None},

@@ -1,8 +1,9 @@
-"""The time to the first word of the command line, as a ratio to an empty Python.
+"""The time to the first word of the command line, as a ratio to an empty Python; and to the painted window.
 
 Run from the root: python tests/benchmarks/startup.py
 """
 
+import os
 import statistics
 import subprocess
 import sys
@@ -22,6 +23,20 @@ def milliseconds(words, repeats=21):
     return statistics.median(times)
 
 
+WINDOW = """
+import resources
+from app.bootstrap import Editor, make_application
+app = make_application()
+editor = Editor()
+editor.files.open_sample(resources.samples()[0])
+editor.window.show()
+app.processEvents()
+editor.window.canvas.viewport().repaint()
+editor.preview.stop()
+editor.ranked.stop()
+"""
+
+
 def main():
     """Print every figure."""
     empty = milliseconds(["-c", "pass"])
@@ -33,6 +48,8 @@ def main():
     ):
         took = milliseconds(words)
         print(f"{name}: {took:.1f} ms, {took / empty:.2f} times (goal under 3)")
+    os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+    print(f"the window with a sample, painted: {milliseconds(['-c', WINDOW], 5):.0f} ms (goal under 2500)")
 
 
 if __name__ == "__main__":

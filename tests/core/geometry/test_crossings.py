@@ -18,7 +18,8 @@ from core.geometry.crossings import (
 SQUARE = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
 BOW_TIE = np.array([[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]])
 
-coordinates = st.integers(0, 6).map(float) | st.floats(0, 6, allow_subnormal=False)
+# of 32 bits: products of smaller numbers than these vanish, and no drawing is 1e-100 px large
+coordinates = st.integers(0, 6).map(float) | st.floats(0, 6, allow_subnormal=False, width=32)
 outlines = st.lists(st.tuples(coordinates, coordinates), min_size=3, max_size=12).map(np.array)
 
 

@@ -2,6 +2,7 @@ import errno
 import json
 import os
 import stat
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from core.correspondence.pairing import Correspondence
 from core.errors import DocumentError, FileFormatError, InkbetweenError, StorageError
 from core.io.project import LARGEST_FILE, decode, encode, load, save
 from core.methods.plan import METHODS
-from core.model.document import Anchor, Document, Keyframe, Layer, OutlinePair, Span, Stage
+from core.model.document import Anchor, Document, Keyframe, Layer, OutlinePair, Reference, Span, Stage
 from core.model.drawing import Drawing, Outline, Style
 from core.model.easing import Easing
 
@@ -89,7 +90,7 @@ def rich():
     fixed = (OutlinePair(1, 2, (Anchor(0.0, 2.0), Anchor(1.5, 0.25)), kept), OutlinePair(7, 7))
     span = Span("linear", Easing(0.25, -0.5, 0.75, 1.5), -2, fixed)
     first = Keyframe(1, Drawing((wave, hole, line), Style("#12345678", "#abcdef", 2.5)), span)
-    last = Keyframe(48, Drawing((hole, line), Style(None, None, 0.0)))
+    last = Keyframe(48, Drawing((hole, line), Style(None, None, 0.0)), Span("intrinsic"))
     front = Layer(3, "Flügel ✎", True, (first, last))
     stage = Stage(1280, 720, "#101216")
     return Document(stage, Fraction(24000, 1001), 60, (Layer(1, "", False), front))
@@ -129,6 +130,29 @@ def test_equal_documents_write_the_same_bytes_whatever_numbers_they_were_made_of
     plain = film(int, float, np.array(square, float))
     for whole, real in ((int, int), (np.int64, np.float64), (np.int32, np.float32)):
         assert encode(film(whole, real, np.array(square))) == encode(plain)
+
+
+def test_what_is_seldom_set_comes_back_too_and_costs_nothing_where_it_is_not():
+    kept = Correspondence(np.array([0.0, 1.5]), np.array([2.0, 0.25]), (4, 3), flipped=True)
+    pair = OutlinePair(1, 2, (Anchor(0.0, 2.0, muted=True), Anchor(1.5, 0.25)), kept, chosen=True)
+    document = rich()
+    layer = document.layers[1]
+    first = replace(
+        layer.keyframes[0],
+        span=Span("auto", pairs=(pair,), repair=True),
+        reference=Reference("sketches/arm.png", 0.25),
+    )
+    full = replace(document, layers=(document.layers[0], replace(layer, keyframes=(first, layer.keyframes[1]))))
+    assert decode(encode(full)) == full
+    for word in (b"muted", b"chosen", b"repair", b"reference"):
+        assert word in encode(full)
+        assert word not in encode(document)
+
+
+def test_a_muted_anchor_that_is_not_there_is_refused():
+    content = encode(rich()).replace(b'"correspondence"', b'"muted":[2],"correspondence"', 1)
+    with pytest.raises(FileFormatError, match=r"there are 2 anchors; muted are \[2\]"):
+        decode(content)
 
 
 def test_a_file_of_version_1_opens_for_ever():

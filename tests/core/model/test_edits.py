@@ -345,7 +345,7 @@ SAME = [
     lambda d: edits.insert_vertex(d, 1, 1, 1, 2.0),
     lambda d: edits.delete_vertices(d, 1, 1, {1: []}),
     lambda d: edits.set_style(d, 1, 1, Style()),
-    lambda d: edits.set_span(d, 1, 1, method="intrinsic", easing=Easing(), turns=0),
+    lambda d: edits.set_span(d, 1, 1, method="auto", easing=Easing(), turns=0, repair=False),
     lambda d: edits.add_anchor(d, 1, 1, 1, 1, Anchor(2.5, 2.0)),
     lambda d: edits.move_anchor(d, 1, 1, 1, 1, 1, Anchor(2.5, 2.0)),
     lambda d: edits.clear_anchors(d, 1, 13),
@@ -435,3 +435,12 @@ def test_whatever_edits_leave_can_be_saved_and_opened(data, closed):
         assert after is document or after != document
         assert decode(encode(after)) == after
         document = after
+
+
+def test_a_new_layer_lies_in_front_and_has_an_id_of_its_own():
+    document = edits.add_layer(Document(layers=(Layer(2, "a"), Layer(1, "b"))), "c")
+    assert [(x.id, x.name) for x in document.layers] == [(2, "a"), (1, "b"), (3, "c")]
+    highest = edits.add_layer(Document(layers=(Layer(2**31 - 1),)), "next")
+    assert highest.layers[-1].id == 1
+    with pytest.raises(DocumentError, match="name"):
+        edits.add_layer(document, "x" * 1001)

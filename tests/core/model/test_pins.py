@@ -190,7 +190,7 @@ def test_pins_come_back_from_a_file_and_cost_nothing_where_there_are_none():
         (b'{"outline":1,"position":3.0}', b"{}", "either on an outline or at a place"),
         (b'"outline":1,"position":3.0', b'"outline":1,"position":24.1', "which ends at 24"),
         (b'"outline":1,"position":3.0', b'"outline":7,"position":3.0', "no outline 7"),
-        (b'"outline":1,"position":3.0', b'"outline":1,"position":NaN', "malformed"),
+        (b'"outline":1,"position":3.0', b'"outline":1,"position":NaN', "damaged"),
         (b'"outline":1,"position":3.0', b'"outline":1,"at":3.0', "unknown field `at`"),
         (b"[3.5,4.0]", b"[3.5]", "length 2"),
         (b"[3.5,4.0]", b"[3.5,4e9]", "beyond"),

@@ -79,6 +79,15 @@ def test_frames_far_from_the_trouble_are_the_methods_own():
     assert (wished == frames).all(axis=(1, 2)).mean() > 0.2
 
 
+def test_the_deviation_tells_how_far_the_paths_are_bent():
+    assert plan_repair(plan(SQUARE, DIAMOND)).deviation == 0
+    repaired, _ = repaired_once()
+    wished = tangled().evaluate(np.linspace(0, 1, 65))
+    away = repaired.evaluate(np.linspace(0, 1, 65)) - wished
+    size = np.ptp(wished[[0, -1]].reshape(-1, 2), axis=0).max()
+    assert repaired.deviation == pytest.approx(np.sqrt((away**2).sum(axis=2).mean(axis=1)).mean() / size)
+
+
 def test_repaired_paths_are_continuous():
     repaired, _ = repaired_once()
     coarse, fine = (steps(repaired.evaluate(np.linspace(0, 1, k))).max() for k in (241, 240 * 64 + 1))
@@ -161,3 +170,30 @@ def test_a_repaired_open_outline_does_not_cross_itself():
 
 def test_nothing_needs_no_repair():
     assert repair_drawing(plan_drawing([])).evaluate([0.5]) == ()
+
+
+HOSTILE = {
+    "one line": np.stack([np.array([0.0, 5, 10, 3]), np.zeros(4)], axis=1),
+    "there and back": np.array([[0.0, 0], [10, 0], [0, 0], [10, 0]]),
+    "two places": np.array([[0.0, 0], [0, 0], [1, 0], [0, 0]]),
+    "three places": np.array([[0.0, 0], [0, 0], [100, 0], [0, 100]]),
+    "bow tie": np.array([[0.0, 0], [10, 10], [10, 0], [0, 10]]),
+    "sliver": np.array([[0.0, 0], [100, 1e-9], [200, 0], [100, 2e-9]]),
+    "far": SQUARE + 9e8,
+    "tiny": SQUARE * 1e-12,
+    "tinier": SQUARE * 1e-200,
+    "huge": SQUARE * 9e6,
+    "backwards": SQUARE[::-1].copy(),
+    "half a turn": 100 - SQUARE,
+}
+
+
+@pytest.mark.parametrize("other", HOSTILE)
+@pytest.mark.parametrize("method", ["linear", "intrinsic"])
+def test_hostile_outlines_give_frames_that_are_simple_or_a_note(other, method):
+    for a, b in ((SQUARE, HOSTILE[other]), (HOSTILE[other], SQUARE)):
+        repaired = plan_repair(plan(a, b, method=method))
+        frames = repaired.evaluate(TIMES)
+        assert np.isfinite(frames).all()
+        assert np.array_equal(frames[[0, -1]], [a, b])
+        assert repaired.notes or count_crossed(frames) == 0

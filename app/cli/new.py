@@ -1,0 +1,98 @@
+"""`inkbetween new`: a project whose two keyframes come from two SVG files."""
+
+import argparse
+import math
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from app.cli.display import Problem
+
+if TYPE_CHECKING:  # numpy comes with core: not for a usage error
+    from core.io.imported import Imported
+    from core.model.document import Document, Stage
+
+DONE = 0
+FRAMES = 24
+
+
+def new_parser() -> argparse.ArgumentParser:
+    """Return what reads the words behind `new`."""
+    parser = argparse.ArgumentParser(
+        prog="inkbetween new",
+        description="Make a project of two SVG drawings: the first frame shows the one, the last frame the other. "
+        "The stage is as large as the first drawing; the second one is put in its middle.",
+    )
+    parser.add_argument("before", metavar="BEFORE.svg", help="the first keyframe")
+    parser.add_argument("after", metavar="AFTER.svg", help="the last keyframe")
+    parser.add_argument("-o", "--output", metavar="FILE.inkb", required=True, help="the project to write")
+    parser.add_argument(
+        "--frames", metavar="N", type=_frame_count, default=FRAMES, help=f"length of the film ({FRAMES})"
+    )
+    parser.add_argument(
+        "--method", metavar="M", type=_method, default="intrinsic", help="how vertices travel (intrinsic)"
+    )
+    parser.add_argument("--force", action="store_true", help="replace FILE.inkb if it exists")
+    parser.set_defaults(run=run_new)
+    return parser
+
+
+def run_new(parsed: argparse.Namespace) -> int:
+    """Read both drawings, then write the project: nothing is written if either is wrong."""
+    from core.io.project import save
+    from core.io.svg import read_svg
+
+    if os.path.lexists(parsed.output) and not parsed.force:
+        raise Problem(f"{parsed.output} exists already; choose another name, or replace it with --force")
+    pictures = [read_svg(Path(name), tolerance=None) for name in (parsed.before, parsed.after)]
+    document = _document(pictures, parsed.frames, parsed.method)
+    save(document, Path(parsed.output))
+    for name, picture in zip((parsed.before, parsed.after), pictures, strict=True):
+        _tell_rest(name, picture)
+    stage = document.stage
+    sys.stdout.write(f"{parsed.output}: {document.length} frames, {stage.width} x {stage.height} px\n")
+    return DONE
+
+
+def _document(pictures: list["Imported"], frames: int, method: str) -> "Document":
+    from core.io.imported import fitted, import_keyframe
+    from core.model.document import Document
+    from core.model.edits import set_span
+
+    document = Document(stage=_stage(pictures[0].size), length=frames)
+    for frame, picture in zip((1, frames), pictures, strict=True):
+        document = import_keyframe(document, 1, frame, fitted(picture, document.stage))
+    return set_span(document, 1, 1, method=method)
+
+
+def _stage(size: tuple[float, float]) -> "Stage":
+    from core.model.document import LARGEST_STAGE, Stage
+
+    scale = min(1.0, LARGEST_STAGE / max(size))
+    width, height = (min(max(math.ceil(side * scale - 1e-6), 1), LARGEST_STAGE) for side in size)
+    return Stage(width, height)
+
+
+def _tell_rest(name: str, picture: "Imported") -> None:
+    from core.io.imported import remark
+
+    rest = remark(picture, as_one=True)
+    if rest:
+        sys.stderr.write(f"inkbetween: {name}: {rest}\n")
+
+
+def _frame_count(text: str) -> int:
+    from core.model.document import LONGEST
+
+    if not (text.isascii() and text.isdigit() and 2 <= int(text[:9]) <= LONGEST):
+        raise argparse.ArgumentTypeError(f"{text!r} is no length; write a number of frames, 2 to {LONGEST}")
+    return int(text)
+
+
+def _method(text: str) -> str:
+    from core.methods.plan import METHODS
+
+    if text not in METHODS:
+        raise argparse.ArgumentTypeError(f"{text!r} is no method; known are {', '.join(METHODS)}")
+    return text
