@@ -88,13 +88,9 @@ class Incoming(QObject):
         if made:
             session.set_layer(session.document.layers[-1].id)
         outlines = sum(len(d.outlines) for d in imported.drawings)
-        what = (
-            f"{made} layer{'s' if made > 1 else ''}"
-            if made
-            else f"{outlines} outline{'s' if outlines > 1 else ''}"
-        )
+        what = _counted(made, "layer") if made else f"the keyframe at {frame}, {_counted(outlines, 'outline')}"
         rest = remark(imported, as_one=not as_layers)
-        self._window.tell(f"{name}: {what} imported{'; ' + rest if rest else ''}.", "info")
+        self._window.tell(f"Imported {name} as {what}{'; ' + rest if rest else ''}.", "info")
 
     # letters
 
@@ -147,6 +143,10 @@ class Incoming(QObject):
         if str(kept) != "." and kept.is_dir():
             return str(kept)
         return str(self._session.path.parent if self._session.path else Path.home())
+
+
+def _counted(count: int, word: str) -> str:
+    return f"{count} {word}{'' if count == 1 else 's'}"
 
 
 def _reference(path: Path, before: Reference | None) -> Reference:

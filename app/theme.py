@@ -175,11 +175,12 @@ QPushButton:disabled {{ color: {t.muted}; background: {t.panel}; border-color: {
 QPushButton[flat="true"] {{ background: transparent; border-color: transparent; color: {t.accent};
     padding: 4px 6px; }}
 QPushButton[flat="true"]:disabled {{ color: {t.muted}; }}
-QLineEdit, QSpinBox, QDoubleSpinBox, QComboBox {{ background: {t.raised}; color: {t.text};
+QLineEdit, QPlainTextEdit, QSpinBox, QDoubleSpinBox, QComboBox {{ background: {t.raised}; color: {t.text};
     border: 1px solid {t.line}; border-radius: 7px; padding: 3px 8px; min-height: 20px;
     selection-background-color: {t.accent}; selection-color: {t.accent_text}; }}
 QComboBox::down-arrow {{ image: url({_drawn("down", t.muted)}); width: 12px; height: 12px; }}
-QLineEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus, QComboBox:focus {{ border-color: {t.accent}; }}
+QLineEdit:focus, QPlainTextEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus,
+QComboBox:focus {{ border-color: {t.accent}; }}
 QLineEdit:disabled, QSpinBox:disabled, QDoubleSpinBox:disabled, QComboBox:disabled {{ color: {t.muted}; }}
 QSpinBox::up-button, QSpinBox::down-button, QDoubleSpinBox::up-button, QDoubleSpinBox::down-button {{
     width: 0; border: none; }}

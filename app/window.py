@@ -134,9 +134,10 @@ class Window(QMainWindow):
         column = QVBoxLayout(inner)
         column.setContentsMargins(0, 4, 0, 12)
         column.setSpacing(4)
-        for panel in (self.span_panel, self.easing_panel, self.drawing_panel, self.reference_panel):
+        for panel in (self.span_panel, self.easing_panel, self.drawing_panel):
             column.addWidget(panel)
             column.addWidget(separator())
+        column.addWidget(self.reference_panel)
         column.addStretch(1)
         scroll = QScrollArea()
         scroll.setWidgetResizable(True)

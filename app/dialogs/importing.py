@@ -8,7 +8,7 @@ from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QProgressBar, QVBoxLayout, QWidget
 
 from app.panels.parts import label
-from core.errors import InkbetweenError
+from core.errors import CancelledError, InkbetweenError
 
 BIG_FILE = 1_000_000
 PATIENCE_MS = 400
@@ -39,14 +39,14 @@ class ImportJob(QObject):
         self._thread.join()
 
     def _run(self) -> None:
-        from core.io.svg import Cancelled, read_svg
+        from core.io.svg import read_svg
 
         result: object
         try:
             result = read_svg(
                 self.path, tolerance=None, progress=self.progressed.emit, cancelled=self._cancel.is_set
             )
-        except Cancelled:
+        except CancelledError:
             result = None
         except InkbetweenError as e:
             result = e

@@ -130,7 +130,7 @@ def certify_drawing(
         If the arrays do not fit each other.
     """
     views = views_of(frames, closed, before, after)
-    when = _times(times, len(views[0].frames) if views else 0)
+    when = _times(times, len(views[0].frames) if views else np.size(times) if times is not None else 0)
     log = Log(when, [], {})
     for view in views:
         look_at(view, log)

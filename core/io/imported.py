@@ -1,12 +1,13 @@
 """Drawings that came from another program's file, and how they are put into a document."""
 
+from collections import Counter
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from core.errors import DocumentError
 from core.geometry.outline import FloatArray
-from core.model.document import Document, Stage
+from core.model.document import LONGEST_NAME, Document, Stage
 from core.model.drawing import WIDEST_STROKE, Drawing, Outline, Style
 from core.model.edits import add_layer, put_drawing
 
@@ -105,9 +106,11 @@ def import_layers(document: Document, frame: int, imported: Imported) -> Documen
             f"the picture would become {len(groups)} layers, the limit is {MOST_LAYERS}; import it as a keyframe, "
             "or join paths of one colour first"
         )
-    for number, group in enumerate(groups, start=1):
-        name = next((d.name for d in group if d.name), f"Imported {number}")
-        document = add_layer(document, name)
+    used: Counter[str] = Counter()
+    for group in groups:
+        name = next((d.name for d in group if d.name), "Imported")[: LONGEST_NAME - 10]
+        used[name] += 1
+        document = add_layer(document, name if used[name] == 1 else f"{name} {used[name]}")
         document = put_drawing(document, document.layers[-1].id, frame, _drawing(group, group[0].style))
     return document
 

@@ -22,11 +22,9 @@ from core.io.svg_notes import APPLIED, UNSUPPORTED, Notes
 from core.io.svg_path import Subpath, Trail, read_path, read_shape
 from core.io.svg_style import Look, Matrix, Paints, Sheet, href, joined, length, transform
 from core.io.svg_viewport import FARTHEST, box_fit, root_place, view_box
-from core.io.svg_xml import DEEPEST, XML_SHARE, Asked, Cancelled, Progress, Watch, local_name, parse_xml
+from core.io.svg_xml import DEEPEST, XML_SHARE, Asked, Progress, Watch, local_name, parse_xml
 from core.model.document import LONGEST_NAME
 from core.model.drawing import WIDEST_STROKE, Style
-
-__all__ = ["Cancelled", "read_svg"]
 
 LARGEST_FILE = 128 * 1024 * 1024
 TOLERANCE = 0.25
@@ -86,7 +84,7 @@ def read_svg(
         No SVG, a damaged or hostile one, or one in which nothing can be drawn; one sentence.
     StorageError
         The file cannot be read.
-    Cancelled
+    CancelledError
         `cancelled` said so.
     """
     name = "" if isinstance(content, bytes) else Path(content).name

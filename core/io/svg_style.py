@@ -98,6 +98,8 @@ class Sheet:
                 self._add_rule(selector.strip(), declarations(body))
 
     def _add_rule(self, selector: str, properties: Properties) -> None:
+        if selector.startswith("@"):  # fonts and the like
+            return
         match = _SELECTOR.fullmatch(selector)
         if match is None or not selector:
             self._note("style rule")

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import Any
 from xml.etree.ElementTree import Element, ParseError, TreeBuilder
 
-from core.errors import FileFormatError
+from core.errors import CancelledError, FileFormatError, InkbetweenError
 
 SVG_SPACE = "{http://www.w3.org/2000/svg}"
 MOST_ELEMENTS = 1_000_000
@@ -20,12 +20,8 @@ Progress = Callable[[float], object]
 Asked = Callable[[], bool]
 
 
-class Cancelled(Exception):
-    """The work was given up because `cancelled` said so."""
-
-
 class Watch:
-    """Counts what is done of `total`, tells it, and raises Cancelled when asked to stop."""
+    """Counts what is done of `total`, tells it, and raises CancelledError when asked to stop."""
 
     def __init__(self, total: int, progress: Progress | None, cancelled: Asked | None) -> None:
         self._total = max(total, 1)
@@ -45,7 +41,7 @@ class Watch:
             return
         self._next = self._done + self._total / 200
         if self._cancelled is not None and self._cancelled():
-            raise Cancelled
+            raise CancelledError("the import was cancelled")
         if self._progress is not None:
             share = min(self._done / self._total, 1.0)
             self._progress(self._low + (self._high - self._low) * share)
@@ -101,7 +97,7 @@ def parse_xml(content: bytes, watch: Watch) -> Element:
         raise FileFormatError("it defines entities or refers to other files; save it as a plain SVG") from None
     except (ParseError, LookupError, UnicodeError, OverflowError) as e:
         raise FileFormatError(f"it is no SVG, or it is damaged ({e})") from None
-    except FileFormatError:
+    except InkbetweenError:
         raise
     except ValueError as e:  # expat cannot read all encodings that Python knows
         raise FileFormatError(f"its text encoding cannot be read ({e}); save it as UTF-8") from None

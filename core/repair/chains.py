@@ -33,16 +33,19 @@ class Chains:
     rows : tuple of slice
         Vertices of every outline.
     closed : tuple of bool
+    keyframes : (2, n) complex array, optional
+        What is narrow there may be narrow everywhere; nothing else may.
     """
 
     rows: tuple[slice, ...]
     closed: tuple[bool, ...]
+    keyframes: ComplexArray | None = None
 
     @classmethod
-    def of(cls, counts: Sequence[int], closed: Sequence[bool]) -> "Chains":
+    def of(cls, counts: Sequence[int], closed: Sequence[bool], keyframes: ComplexArray | None = None) -> "Chains":
         """Make chains of outlines with so many vertices each."""
         last = np.cumsum([0, *counts]).tolist()
-        return cls(tuple(slice(i, j) for i, j in pairwise(last)), tuple(closed))
+        return cls(tuple(slice(i, j) for i, j in pairwise(last)), tuple(closed), keyframes)
 
     @property
     def count(self) -> int:

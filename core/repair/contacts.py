@@ -42,22 +42,27 @@ class Pairs:
         """Values (N,) of all vertices at the vertex, the start and the end of every pair."""
         return values[self.vertex], values[self.start], values[self.end]
 
+    def within(self, values: Any) -> tuple[Any, Any, Any]:
+        """As `of`, for values (n,) that all frames share."""
+        n = len(values)
+        return values[self.vertex % n], values[self.start % n], values[self.end % n]
+
 
 @dataclass(frozen=True)
 class Gap:
     """How near a pair may come: `share` of its distance at the start, or `floor` where that is more.
 
-    The floor is in sizes of the drawing; a pair nearer than it may lose `most` of its distance. Without the floor
-    a march closes gaps until rounding decides whether something crosses.
+    The floor is in sizes of the drawing; a pair nearer than it, there or in a keyframe, may lose `most` of that
+    distance. Without the floor a march closes gaps until rounding decides whether something crosses.
     """
 
     share: float
     most: float
     floor: float
 
-    def of(self, distances: FloatArray) -> FloatArray:
-        """Return the least distances allowed."""
-        return np.maximum(self.share * distances, np.minimum(self.most * distances, self.floor))
+    def of(self, apart: FloatArray, narrow: FloatArray) -> FloatArray:
+        """Return the least distances for pairs so far `apart`, and so `narrow` at the start or in a keyframe."""
+        return np.maximum(self.share * apart, np.minimum(self.most * narrow, self.floor))
 
 
 STEPPING = Gap(0.1, 0.5, 1e-6)
@@ -102,7 +107,7 @@ def distances(v: ComplexArray, u: ComplexArray, w: ComplexArray) -> tuple[FloatA
 
 def free_share(z: ComplexArray, move: ComplexArray, pairs: Pairs) -> float:
     """Return the share of a move (n,) from z (n,) that keeps all pairs apart, 0 to 1."""
-    reached, clear = _advance(z, move, None, pairs, STEPPING)
+    reached, clear = _advance(z, move, None, pairs, STEPPING, None)
     return float(reached[~clear].min()) if not clear.all() else 1.0
 
 
@@ -130,7 +135,7 @@ def clear_moves(
     thick = 0.0 if bends is None else float(np.abs(bends - bends.mean(axis=1, keepdims=True)).max(initial=0.0))
     pairs = near_pairs(chains, starts, move, 2 * thick)
     bend = None if bends is None else bends.ravel()
-    _, clear = _advance(starts.ravel(), move.ravel(), bend, pairs, gap)
+    _, clear = _advance(starts.ravel(), move.ravel(), bend, pairs, gap, chains.keyframes)
     fine = np.ones(len(starts), np.bool_)
     fine[pairs.frame[~clear]] = False
     return fine
@@ -176,7 +181,12 @@ def _trimmed(place: Triple, move: Triple, bend: Triple | None) -> tuple[Triple, 
 
 
 def _advance(
-    z: ComplexArray, moves: ComplexArray, bends: ComplexArray | None, pairs: Pairs, gap: Gap
+    z: ComplexArray,
+    moves: ComplexArray,
+    bends: ComplexArray | None,
+    pairs: Pairs,
+    gap: Gap,
+    keyframes: ComplexArray | None,
 ) -> tuple[FloatArray, BoolArray]:
     """How far every pair surely stays apart, and whether that is all the way.
 
@@ -187,7 +197,7 @@ def _advance(
     place, move, bend = pairs.of(z), pairs.of(moves), None if bends is None else pairs.of(bends)
     start = distances(*place)[0]
     slack = start - _approach(move) - (0.0 if bend is None else _approach(bend))
-    clear = slack > gap.of(start)
+    clear = slack > gap.of(start, start)
     reached = np.zeros(len(start))
     rest = np.flatnonzero(~clear)
 
@@ -196,18 +206,20 @@ def _advance(
 
     place, move, bend = _trimmed(picked(place), picked(move), None if bend is None else picked(bend))
     thick = np.zeros(len(rest)) if bend is None else _approach(bend)
-    reached[rest], clear[rest] = _advance_slowly(place, move, thick, start[rest], gap)
+    narrow = start[rest]
+    for z in () if keyframes is None else keyframes:
+        narrow = np.minimum(narrow, distances(*pairs[rest].within(z))[0])
+    reached[rest], clear[rest] = _advance_slowly(place, move, thick, start[rest], narrow, gap)
     return reached, clear
 
 
 def _advance_slowly(
-    place: Triple, move: Triple, thick: FloatArray, start: FloatArray, gap: Gap
+    place: Triple, move: Triple, thick: FloatArray, start: FloatArray, narrow: FloatArray, gap: Gap
 ) -> tuple[FloatArray, BoolArray]:
     (v, u, w), (pv, pu, pw) = place, move
-    if gap is not STEPPING:
-        start = np.minimum(start, distances(v + pv, u + pu, w + pw)[0])
+    apart = start if gap is STEPPING else np.minimum(start, distances(v + pv, u + pu, w + pw)[0])
     rate = np.maximum(_approach(move), 1e-300)
-    least = gap.of(start - thick) + thick
+    least = gap.of(apart - thick, narrow) + thick
     reached, clear = np.zeros(len(rate)), np.zeros(len(rate), np.bool_)
     todo = np.flatnonzero(start > thick)
     at = 0.9 * (start - thick)[todo] / rate[todo]

@@ -182,6 +182,7 @@ def _course(plan: DrawingPlan, parts: tuple[int, ...], watch: "_Watch") -> tuple
         return np.asarray((_row([frames[k] for k in parts]) - origin) / scale + apart, np.complex128)
 
     before, after = ends + moves
+    chains = replace(chains, keyframes=ends + moves)
     mass, springs = chains.stiffness(before, after)
     field = Field(chains, Barrier(before, after), mass, springs, watch.check)
     sketches = tuple(_sketch(pairs, method, steps) for method, steps in (("intrinsic", 16), ("linear", 10)))

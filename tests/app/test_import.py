@@ -1,12 +1,14 @@
 """What comes in from elsewhere, through the menus of the real window."""
 
+import subprocess
+import sys
 import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QTimer, QUrl
-from PySide6.QtGui import QDragEnterEvent, QDropEvent, QFont, QFontDatabase, QImage
+from PySide6.QtGui import QDragEnterEvent, QDropEvent, QFont, QFontDatabase, QImage, QPainterPath
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDialogButtonBox, QFileDialog
 
@@ -74,7 +76,7 @@ def test_an_svg_becomes_the_keyframe_at_the_playhead_in_one_undo_step(hand, sket
     assert keyframe.drawing.style.fill == "#ff0000"
     assert keyframe.drawing.outlines[0].points.tolist() == [[100, 100], [500, 100], [500, 500], [100, 500]]
     assert hand.message == (
-        "Sketch.svg: 3 outlines imported; not taken over: a text, "
+        "Imported sketch.svg as the keyframe at 7, 3 outlines; not taken over: a text, "
         "1 of 2 styles (a keyframe has one, the first is used)."
     )
     assert hand.session.undo_stack.undoText() == "Import SVG"
@@ -91,7 +93,7 @@ def test_an_svg_becomes_layers_named_like_its_paths(hand, sketch, monkeypatch, q
     assert [k.drawing.style.fill for x in layers for k in x.keyframes] == ["#ff0000", "#0000ff"]
     assert layers[2].keyframes[0].drawing.style.width == 3
     assert hand.session.layer is layers[2]
-    assert hand.message == "Sketch.svg: 2 layers imported; not taken over: a text."
+    assert hand.message == "Imported sketch.svg as 2 layers; not taken over: a text."
     hand.menu("edit.undo")
     assert len(hand.session.document.layers) == 1
 
@@ -154,6 +156,15 @@ def test_escape_cancels_and_a_second_import_waits_its_turn(hand, big, sketch, qt
     assert "cancelled" in hand.message
 
 
+def test_nothing_of_it_is_imported_before_the_first_svg() -> None:
+    code = (
+        "import sys; from app.bootstrap import Editor, make_application; make_application(); e = Editor();"
+        "e.preview.stop(); print(sorted({'svgelements', 'defusedxml', 'core.io.svg'} & set(sys.modules)))"
+    )
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert ended.stdout.strip() == "[]"
+
+
 def test_closing_the_window_ends_an_import(hand, big) -> None:
     hand.editor.incoming.import_path(big)
     job = hand.editor.incoming.import_dialog.job
@@ -187,6 +198,15 @@ def test_a_hole_runs_the_other_way_and_straight_strokes_have_few_vertices(font) 
     areas = [float(signed_area(o)) for o in outlines]
     assert areas[0] * areas[1] < 0
     assert sorted(len(o) for o in outlines) == [3, 8]
+
+
+def test_overlapping_strokes_of_a_letter_become_one_outline(font, monkeypatch) -> None:
+    cross = QPainterPath()
+    cross.addRect(0, 40, 100, 20)
+    cross.addRect(40, 0, 20, 100)
+    monkeypatch.setattr("app.letters._path", lambda *_: QPainterPath(cross))
+    (outline,) = letter_outlines("+", font, 1000, (0, 0))
+    assert abs(float(signed_area(outline))) == pytest.approx(3600, abs=1)
 
 
 def test_letters_are_inserted_at_the_playhead_in_one_undo_step(hand, font, monkeypatch) -> None:

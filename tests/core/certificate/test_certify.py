@@ -201,3 +201,9 @@ def test_drawings_that_do_not_fit_are_refused_with_their_numbers():
         certify_drawing(frames, (True,))
     with pytest.raises(GeometryError, match="after has 1 outlines, the frames have 2"):
         certify_drawing(frames, (True, True), None, (SQUARE,))
+
+
+def test_a_drawing_without_outlines_has_no_problem_at_any_time():
+    certificate = certify_drawing((), (), times=(0.0, 0.5, 1.0))
+    assert certificate.problems == ()
+    assert certificate.stretch.tolist() == [1, 1, 1]

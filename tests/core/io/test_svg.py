@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from shapely.geometry import Polygon
 from svgelements import Path as ReadPath
 
-from core.errors import DocumentError, FileFormatError, InkbetweenError, StorageError
+from core.errors import CancelledError, DocumentError, FileFormatError, InkbetweenError, StorageError
 from core.geometry.outline import locate, signed_area
 from core.io.imported import as_drawing, fitted, import_keyframe, import_layers, painted_alike
-from core.io.svg import Cancelled, read_svg
+from core.io.svg import read_svg
 from core.model.document import Document, Stage
 from core.model.drawing import Style
 
@@ -82,6 +82,11 @@ def test_straight_edges_stay_one_edge(body, count):
         (
             '<g transform="translate(10)"><g transform="rotate(90)"><rect width="10" height="4"/></g></g>',
             [6, 0, 10, 10],
+        ),
+        ('<rect width="9" height="9" style="transform: translate(10px, 20px)"/>', [10, 20, 19, 29]),
+        (
+            '<style>@font-face{src:none} @media all {.m {x: 1}}</style><rect class="m" width="9" height="9"/>',
+            [0, 0, 9, 9],
         ),
         ('<rect width="10" height="10" transform="matrix(1 0 0 -1 5 50)"/>', [5, 40, 15, 50]),
         ('<defs><rect id="r" width="10" height="10"/></defs><use xlink:href="#r" x="7" y="8"/>', [7, 8, 17, 18]),
@@ -437,7 +442,7 @@ def test_it_stops_when_asked(calls):
         asked.append(1)
         return len(asked) > calls
 
-    with pytest.raises(Cancelled):
+    with pytest.raises(CancelledError):
         read_svg(large(400), cancelled=cancelled)
     assert len(asked) == calls + 1
 
@@ -484,7 +489,7 @@ def test_layers_hold_what_is_painted_alike_and_does_not_overlap():
     )
     assert [len(g) for g in painted_alike(imported.drawings)] == [2, 1, 1, 1]
     document = import_layers(Document(), 3, imported)
-    assert [x.name for x in document.layers] == ["Layer 1", "a", "Imported 2", "b", "Imported 4"]
+    assert [x.name for x in document.layers] == ["Layer 1", "a", "Imported", "b", "Imported 2"]
     assert len({x.id for x in document.layers}) == 5
     assert [x.frames() for x in document.layers] == [(), *[(3,)] * 4]
 

@@ -197,3 +197,13 @@ def test_hostile_outlines_give_frames_that_are_simple_or_a_note(other, method):
         assert np.isfinite(frames).all()
         assert np.array_equal(frames[[0, -1]], [a, b])
         assert repaired.notes or count_crossed(frames) == 0
+
+
+@pytest.mark.parametrize("count", [3, 4, 5, 24])
+def test_an_outline_turned_upside_down_does_not_pass_through_a_point(count):
+    a = circle(count)
+    wished = plan(a, -a, method="linear").evaluate(TIMES)
+    frames = plan_repair(plan(a, -a, method="linear")).evaluate(TIMES)
+    assert np.ptp(wished[120]) < 1e-9
+    assert count_crossed(frames) == 0
+    assert np.ptp(frames, axis=1).min() > 0.01
