@@ -115,6 +115,13 @@ ACTIONS: tuple[ActionSpec, ...] = (
         tip="Colour the in-between where it is longer or shorter than its keyframes",
     ),
     ActionSpec(
+        "view.paths",
+        "View",
+        "Vertex Paths",
+        checkable=True,
+        tip="The ways of some vertices through the span, with a dot a frame",
+    ),
+    ActionSpec(
         "view.final", "View", "Final Look", ("F9",), "visible", checkable=True, tip="As exported, without helpers"
     ),
     _line("View"),
@@ -130,6 +137,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("tool.pen", "Draw", "Pen", ("P",), "pen", checkable=True, group="tool"),
     ActionSpec("tool.pencil", "Draw", "Pencil", ("B",), "pencil", checkable=True, group="tool"),
     ActionSpec("tool.correspond", "Draw", "Correspond", ("C",), "correspond", checkable=True, group="tool"),
+    ActionSpec("tool.pin", "Draw", "Pin", ("K",), "pin", checkable=True, group="tool"),
     _line("Draw"),
     ActionSpec(
         "key.add",
@@ -169,6 +177,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("span.auto", "Span", "Auto", (), "", checkable=True, group="method"),
     _line("Span"),
     ActionSpec("span.clear", "Span", "Clear Anchors"),
+    ActionSpec("span.clear_pins", "Span", "Clear Pins"),
     ActionSpec(
         "span.again", "Span", "Solve Again", tip="Forget the stored or chosen correspondence; anchors stay"
     ),

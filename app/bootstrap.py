@@ -26,12 +26,20 @@ from app.settings import Settings
 from app.theme import icon, palette, system_theme
 from app.view import LINES, ViewState
 from app.window import Window
-from core.model.edits import clear_anchors, set_stage, solve_again
+from core.model.edits import clear_anchors, clear_pins, set_stage, solve_again
 from core.model.inbetweens import PlanCache
 
 ARRANGEMENT_ACTIONS = {"overlaid": "view.overlaid", "side by side": "view.side", "compare": "view.compare"}
 THEME_ACTIONS = {"system": "view.theme_system", "light": "view.theme_light", "dark": "view.theme_dark"}
-SPAN_ACTIONS = ("span.clear", "span.again", "span.flip", "span.shift_on", "span.shift_back", "view.compare")
+SPAN_ACTIONS = (
+    "span.clear",
+    "span.clear_pins",
+    "span.again",
+    "span.flip",
+    "span.shift_on",
+    "span.shift_back",
+    "view.compare",
+)
 METHOD_ACTIONS = {
     "linear": "span.linear",
     "intrinsic": "span.intrinsic",
@@ -132,6 +140,7 @@ class Editor(QObject):
             "view.lines": self._next_lines,
             "view.hues": lambda: view.set(hues=not view.options.hues),
             "view.heat": lambda: view.set(heat=not view.options.heat),
+            "view.paths": lambda: view.set(paths=not view.options.paths),
             "view.final": lambda: view.set(final=not view.options.final),
             "view.fit": canvas.fit,
             "view.zoom_in": lambda: canvas.zoom(1.25),
@@ -149,6 +158,7 @@ class Editor(QObject):
             "key.copy": lambda: editing.copy_to_other_keyframe(session),
             "key.delete": lambda: editing.delete_current_keyframe(session),
             "span.clear": self._clear_anchors,
+            "span.clear_pins": self._clear_pins,
             "span.again": self._solve_again,
             "span.flip": lambda: matching.flip(session, self.preview),
             "span.shift_on": lambda: matching.shift(session, self.preview, 1),
@@ -177,6 +187,11 @@ class Editor(QObject):
         before, after = self.session.span_keyframes()
         if before is not None and after is not None:
             self.session.apply("Clear Anchors", clear_anchors, self.session.layer.id, before.frame)
+
+    def _clear_pins(self) -> None:
+        before, after = self.session.span_keyframes()
+        if before is not None and after is not None:
+            self.session.apply("Clear Pins", clear_pins, self.session.layer.id, before.frame)
 
     def _solve_again(self) -> None:
         before, after = self.session.span_keyframes()
@@ -231,6 +246,7 @@ class Editor(QObject):
         table["view.onion"].setChecked(options.onion)
         table["view.hues"].setChecked(options.hues)
         table["view.heat"].setChecked(options.heat)
+        table["view.paths"].setChecked(options.paths)
         table["view.final"].setChecked(options.final)
         table[ARRANGEMENT_ACTIONS[options.arrangement]].setChecked(True)
         self._show_playing()

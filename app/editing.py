@@ -6,6 +6,7 @@ import numpy as np
 
 from app.session import OutlineRef, Selection, Session
 from app.tools.correspond import delete_selected_anchor
+from app.tools.pin import delete_selected_pin
 from app.tools.select import delete_selected_vertices, outline_of
 from core.geometry.outline import size
 from core.model.document import Document, Keyframe
@@ -80,9 +81,10 @@ def paste(session: Session, clipboard: Clipboard) -> None:
 
 
 def delete(session: Session) -> None:
-    """Take away the selected anchor, else the selected vertices, and say so if nothing is selected."""
-    if not delete_selected_anchor(session) and not delete_selected_vertices(session):
-        session.problem.emit("Nothing is selected: click a vertex, a shape or an anchor first.")
+    """Take away the selected anchor, pin or vertices, and say so if nothing is selected."""
+    deletes = (delete_selected_anchor, delete_selected_pin, delete_selected_vertices)
+    if not any(delete_one(session) for delete_one in deletes):
+        session.problem.emit("Nothing is selected: click a vertex, a shape, an anchor or a pin first.")
 
 
 def select_all(session: Session) -> None:

@@ -31,6 +31,14 @@ class AnchorRef:
 
 
 @dataclass(frozen=True, slots=True)
+class PinRef:
+    """One pin: the frame its span begins at, its index in the span."""
+
+    frame: int
+    index: int
+
+
+@dataclass(frozen=True, slots=True)
 class Selection:
     """What the next edit is about.
 
@@ -39,10 +47,12 @@ class Selection:
     vertices : mapping from OutlineRef to sorted tuple of int
         Selected vertices of each outline that has any.
     anchor : AnchorRef or None
+    pin : PinRef or None
     """
 
     vertices: Mapping[OutlineRef, tuple[int, ...]] = field(default_factory=dict)
     anchor: AnchorRef | None = None
+    pin: PinRef | None = None
 
     @property
     def count(self) -> int:
@@ -302,9 +312,14 @@ class Session(QObject):
             pair = keyframe.span.pair_of(anchor.before, anchor.after) if keyframe else None
             if pair is None or anchor.index >= len(pair.anchors):
                 anchor = None
-        if len(kept) == len(selection.vertices) and anchor is selection.anchor:
+        pin = selection.pin
+        if pin is not None:
+            keyframe = self.layer.keyframe_at(pin.frame)
+            if keyframe is None or pin.index >= len(keyframe.span.pins):
+                pin = None
+        if len(kept) == len(selection.vertices) and anchor is selection.anchor and pin is selection.pin:
             return selection
-        return Selection(kept, anchor)
+        return Selection(kept, anchor, pin)
 
     # files
 

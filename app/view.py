@@ -29,6 +29,8 @@ class ViewOptions:
         Both outlines are tinted along their length, matching parts alike.
     heat : bool
         The in-between's outline is coloured by the stretch of its edges.
+    paths : bool
+        The ways of some vertices through the span are drawn.
     final : bool
         Paint as exported, without keyframes and helpers.
     """
@@ -41,6 +43,7 @@ class ViewOptions:
     onion_strength: float = 0.5
     hues: bool = False
     heat: bool = False
+    paths: bool = False
     final: bool = False
 
 
@@ -58,6 +61,7 @@ class ViewState(QObject):
             onion=settings.flag("view/onion", d.onion),
             hues=settings.flag("view/hues", d.hues),
             heat=settings.flag("view/heat", d.heat),
+            paths=settings.flag("view/paths", d.paths),
             onion_before=int(settings.number("view/onion_before", d.onion_before, 0, 12)),
             onion_after=int(settings.number("view/onion_after", d.onion_after, 0, 12)),
             onion_strength=settings.number("view/onion_strength", d.onion_strength, 0.05, 1),

@@ -35,6 +35,7 @@ from app.theme import Theme, style_sheet
 from app.tools.correspond import CorrespondTool
 from app.tools.pen import PenTool
 from app.tools.pencil import PencilTool
+from app.tools.pin import PinTool
 from app.tools.select import SelectTool
 from app.view import ViewState
 
@@ -68,6 +69,7 @@ class Window(QMainWindow):
             "tool.pen": PenTool(self.canvas),
             "tool.pencil": PencilTool(self.canvas),
             "tool.correspond": CorrespondTool(self.canvas),
+            "tool.pin": PinTool(self.canvas),
         }
         self.timeline = Timeline(session, view, playback, certificates, theme, self.table.actions)
         self.alternatives_panel = AlternativesPanel(session, preview, ranked, theme)

@@ -21,6 +21,8 @@ from app.canvas.items import (
     ToolItem,
 )
 from app.canvas.papers import whole_area
+from app.canvas.paths import PathsItem, PinsItem
+from app.canvas.pins import PinMark, pin_marks
 from app.canvas.reference import ReferenceItem, ReferencePictures
 from app.canvas.tool import Pointer, Tool
 from app.painting import ROUNDS, Thinner
@@ -61,6 +63,7 @@ class Canvas(pg.GraphicsView):
         self.references = ReferencePictures(self)
         self._plans = PlanCache()
         self._content: Content | None = None
+        self._pin_marks: tuple[Content, tuple[PinMark, ...]] | None = None
         self._follows_stage = True
         self._pan_from: QPointF | None = None
         self._space_down = False
@@ -88,6 +91,7 @@ class Canvas(pg.GraphicsView):
             ToolItem,
         )
         self._items = [kind(self, 10 * z) for z, kind in enumerate(kinds)]
+        self._items += [PathsItem(self, 45), PinsItem(self, 65)]
         self._items.append(ReferenceItem(self, 2))
         self._items.append(OthersItem(self, 5, in_front=False))
         self._items.append(OthersItem(self, 35, in_front=True))
@@ -118,6 +122,18 @@ class Canvas(pg.GraphicsView):
                     self._shown_papers = papers
                     self.camera = self._fitted_camera()
         return self._content
+
+    @property
+    def pin_marks(self) -> tuple[PinMark, ...]:
+        """The pins of what is to be seen now."""
+        if self._pin_marks is None or self._pin_marks[0] is not self.content:
+            self._pin_marks = self.content, pin_marks(self.content)
+        return self._pin_marks[1]
+
+    @property
+    def shows_pins(self) -> bool:
+        """Whether the ways of pins are shown, in place of the correspondence."""
+        return self.tool is not None and self.tool.shows_pins
 
     def _on_changed(self, *_: object) -> None:
         self._content = None

@@ -80,12 +80,14 @@ def _nearest_edge(points: FloatArray, closed: bool) -> tuple[float, float]:
     return (position % len(points) if closed else position), float(gaps[i])
 
 
-def outline_around(content: Content, camera: Camera, at: QPointF) -> tuple[Paper, str, OutlineRef] | None:
+def outline_around(
+    content: Content, camera: Camera, at: QPointF, *, only: str | None = None
+) -> tuple[Paper, str, OutlineRef] | None:
     """Return the closed outline that the pointer is inside of; the smallest one where several are."""
     best = None
     least = np.inf
     for paper, side, ref, outline in content.outlines():
-        if not outline.closed:
+        if not outline.closed or only not in (None, side):
             continue
         x, y = camera.to_stage(at, paper.offset)
         area = abs(float(np.ptp(outline.points[:, 0]) * np.ptp(outline.points[:, 1])))

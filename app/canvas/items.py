@@ -177,10 +177,10 @@ class LinesItem(CanvasItem):
     """The correspondence: fine dotted lines from point to point, the anchors' solid."""
 
     def draw(self, painter: QPainter, content: Content) -> None:
-        if content.options.final or content.plan is None or content.films:
+        if content.options.final or content.plan is None or content.films or self.canvas.shows_pins:
             return
         for start_paper, end_paper in line_papers(content):
-            if content.options.lines == "all":
+            if content.options.lines == "all" and not content.options.paths:
                 self._draw_all(painter, content, start_paper, end_paper)
             if content.options.lines != "none":
                 self._draw_anchors(painter, content, start_paper, end_paper)
@@ -222,7 +222,7 @@ class HandlesItem(CanvasItem):
         tool = self.canvas.tool
         if tool is not None and tool.shows_vertices:
             self._draw_vertices(painter, content)
-        wanted = content.options.lines != "none" and not content.films
+        wanted = content.options.lines != "none" and not content.films and not self.canvas.shows_pins
         if wanted or (tool is not None and tool.shows_anchors):
             self._draw_anchors(painter, content)
         self._draw_hover(painter)

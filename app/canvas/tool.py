@@ -48,6 +48,7 @@ class Tool:
     cursor = Qt.CursorShape.ArrowCursor
     shows_vertices = False
     shows_anchors = False
+    shows_pins = False
 
     def __init__(self, canvas: "Canvas") -> None:
         self.canvas = canvas

@@ -92,7 +92,7 @@ class _PlanTask:
     @property
     def key(self) -> tuple[object, ...]:
         drawings, s = (id(self.before.drawing), id(self.after.drawing)), self.span
-        return *drawings, s.method, s.turns, s.repair, *(id(x) for x in self.solved)
+        return *drawings, s.method, s.turns, s.repair, s.pins, *(id(x) for x in self.solved)
 
     def likeness(self) -> tuple[object, ...]:
         """Equal for plans that take about as long."""

@@ -32,6 +32,7 @@ from core.model.document import (
 )
 from core.model.drawing import LARGEST_ID, Drawing, Outline, Style
 from core.model.easing import Easing
+from core.model.pins import SpanPin
 
 FORMAT: Final = "inkbetween"
 VERSION = 1
@@ -65,12 +66,20 @@ class _Pair(_Struct, omit_defaults=True):
     chosen: bool = False
 
 
+class _Pin(_Struct, omit_defaults=True):
+    outline: Id | None = None
+    position: Number | None = None
+    place: Point | None = None
+    handles: tuple[Point, Point] | None = None
+
+
 class _Span(_Struct, omit_defaults=True):
     method: str
     easing: tuple[Number, Number, Number, Number]
     turns: int
     pairs: list[_Pair]
     repair: bool = False
+    pins: list[_Pin] = []
 
 
 class _Outline(_Struct):
@@ -267,6 +276,7 @@ def _keyframe_to_file(keyframe: Keyframe) -> _Keyframe:
             int(span.turns),
             [_pair_to_file(p) for p in span.pairs],
             bool(span.repair),
+            [_pin_to_file(p) for p in span.pins],
         ),
         _Reference(keyframe.reference.path, float(keyframe.reference.opacity)) if keyframe.reference else None,
     )
@@ -283,6 +293,10 @@ def _pair_to_file(pair: OutlinePair) -> _Pair:
     return _Pair(int(pair.before), int(pair.after), anchors, muted, kept, bool(pair.chosen))
 
 
+def _pin_to_file(pin: SpanPin) -> _Pin:
+    return _Pin(pin.outline, None if pin.outline is None else pin.position, pin.place, pin.handles)
+
+
 def _from_file(project: _Project) -> Document:
     with _place("stage"):
         stage = Stage(project.stage.width, project.stage.height, project.stage.background)
@@ -297,7 +311,7 @@ def _from_file(project: _Project) -> Document:
         )
         with _place(f"layers[{i}]"):
             layers.append(Layer(layer.id, layer.name, layer.visible, keyframes))
-        _check_pairs(layers[-1], f"layers[{i}]")
+        _check_span(layers[-1], f"layers[{i}]")
     with _place(""):
         return Document(stage, rate, project.length, tuple(layers))
 
@@ -312,9 +326,10 @@ def _keyframe_from_file(keyframe: _Keyframe, where: str) -> Keyframe:
         style = keyframe.drawing.style
         drawing = Drawing(tuple(outlines), Style(style.fill, style.stroke, style.width))
     pairs = [_pair_from_file(p, f"{where}.span.pairs[{i}]") for i, p in enumerate(keyframe.span.pairs)]
+    pins = [_pin_from_file(p, f"{where}.span.pins[{i}]") for i, p in enumerate(keyframe.span.pins)]
     with _place(f"{where}.span"):
         s = keyframe.span
-        span = Span(s.method, Easing(*s.easing), s.turns, tuple(pairs), s.repair)
+        span = Span(s.method, Easing(*s.easing), s.turns, tuple(pairs), s.repair, tuple(pins))
     with _place(f"{where}.reference"):
         kept = keyframe.reference
         reference = Reference(kept.path, kept.opacity) if kept else None
@@ -334,9 +349,21 @@ def _pair_from_file(pair: _Pair, where: str) -> OutlinePair:
         return OutlinePair(pair.before, pair.after, anchors, kept, pair.chosen)
 
 
-def _check_pairs(layer: Layer, where: str) -> None:
-    """Refuse pairs that name no outline of the two keyframes, and anchors that cannot hold."""
+def _pin_from_file(pin: _Pin, where: str) -> SpanPin:
+    with _place(where):
+        if (pin.outline is None) != (pin.position is None):
+            raise FileFormatError("a pin on an outline has both `outline` and `position`, one inside neither")
+        return SpanPin(pin.outline, pin.position or 0.0, pin.place, pin.handles)
+
+
+def _check_span(layer: Layer, where: str) -> None:
+    """Refuse pins and pairs that name no outline of the two keyframes, and anchors that cannot hold."""
     for j, (k, following) in enumerate(itertools.zip_longest(layer.keyframes, layer.keyframes[1:])):
+        for i, pin in enumerate(k.span.pins):
+            with _place(f"{where}.keyframes[{j}].span.pins[{i}]"):
+                if following is None:
+                    raise FileFormatError("a pin in the span of the last keyframe")
+                pin.check_on(k.drawing)
         for i, pair in enumerate(k.span.pairs):
             with _place(f"{where}.keyframes[{j}].span.pairs[{i}]"):
                 if following is None:

@@ -13,11 +13,13 @@ from core.errors import DocumentError
 from core.methods.plan import METHODS
 from core.model.drawing import Color, Drawing, as_color, check_id
 from core.model.easing import Easing
+from core.model.pins import SpanPin
 
 LARGEST_STAGE = 16_384
 LONGEST = 100_000
 FASTEST = 1000
 MOST_TURNS = 100
+MOST_PINS = 200
 LONGEST_NAME = 1000
 AUTO = "auto"
 """Not a method of its own: the better one of rigid and intrinsic."""
@@ -117,6 +119,8 @@ class Span:
     pairs : tuple of OutlinePair
         Only what the artist fixed; the other outlines are paired automatically. Pairs whose outlines are gone
         are ignored.
+    pins : tuple of SpanPin
+        Points whose way the artist has drawn, in the order they were made.
     """
 
     method: str = AUTO
@@ -124,12 +128,15 @@ class Span:
     turns: int = 0
     pairs: tuple[OutlinePair, ...] = ()
     repair: bool = False
+    pins: tuple[SpanPin, ...] = ()
 
     def __post_init__(self) -> None:
         if self.method not in (*METHODS, AUTO):
             raise DocumentError(f"unknown method {self.method!r}; known are {', '.join((*METHODS, AUTO))}")
         if abs(self.turns) > MOST_TURNS:
             raise DocumentError(f"{self.turns} extra turns; the limit is {MOST_TURNS}")
+        if len(self.pins) > MOST_PINS:
+            raise DocumentError(f"{len(self.pins)} pins in one span; the limit is {MOST_PINS}")
         for side in ("before", "after"):
             ids = [getattr(p, side) for p in self.pairs]
             if len(set(ids)) < len(ids):

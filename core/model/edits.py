@@ -1,7 +1,7 @@
 """Every edit of a document: a function from document to document that raises before anything changes.
 
 An edit that changes nothing returns the very same document. Where vertices are added or taken away, the anchors
-of the spans on both sides stay at their places on the outline.
+of the spans on both sides, and the pins of the span that begins there, stay at their places on the outline.
 """
 
 import itertools
@@ -30,6 +30,15 @@ from core.model.pair_edits import (
     store_answer,
 )
 from core.model.parts import keyframe_of, with_keyframe
+from core.model.pin_edits import (
+    add_pin,
+    change_pins,
+    clear_pins,
+    delete_pin,
+    drop_pins_on,
+    move_pin,
+    set_pin_handles,
+)
 from core.model.positions import Positions, after_deletion, after_insertion, holding, same_build
 
 Mine = Callable[[OutlinePair], int]
@@ -39,21 +48,26 @@ __all__ = [
     "add_anchor",
     "add_layer",
     "add_outline",
+    "add_pin",
     "choose_correspondence",
     "clear_anchors",
+    "clear_pins",
     "delete_anchor",
     "delete_keyframe",
     "delete_outline",
+    "delete_pin",
     "delete_vertices",
     "insert_vertex",
     "move_anchor",
     "move_keyframe",
+    "move_pin",
     "move_vertices",
     "pair_outlines_by_hand",
     "put_drawing",
     "set_layer",
     "set_length",
     "set_muted",
+    "set_pin_handles",
     "set_rate",
     "set_reference",
     "set_span",
@@ -105,7 +119,7 @@ def put_drawing(document: Document, layer_id: int, frame: int, drawing: Drawing)
     """Make `drawing` the keyframe at `frame`, new or in place of the one that is there.
 
     A new keyframe inside a span takes its method and easing; a film that is too short grows to the frame. Where
-    an outline is gone or has another number of vertices, the anchors on it go with it.
+    an outline is gone or has another number of vertices, the anchors and pins on it go with it.
     """
     layer = document.layer(layer_id)
     old = layer.keyframe_at(frame)
@@ -114,10 +128,11 @@ def put_drawing(document: Document, layer_id: int, frame: int, drawing: Drawing)
             return document
         document = with_keyframe(document, layer, replace(old, drawing=drawing))
         lost = {o.id for o in old.drawing.outlines if not same_build(o, drawing)}
+        document = drop_pins_on(document, layer_id, frame, lost)
         return _in_both_spans(document, layer_id, frame, lambda pair, mine: None if mine(pair) in lost else pair)
     earlier = [k for k in layer.keyframes if k.frame < frame]
     neighbour = earlier[-1] if earlier else (layer.keyframes[0] if layer.keyframes else None)
-    span = replace(neighbour.span, pairs=(), turns=0) if neighbour else Span()
+    span = replace(neighbour.span, pairs=(), pins=(), turns=0) if neighbour else Span()
     keyframes = list(layer.keyframes)
     insort(keyframes, Keyframe(frame, drawing, span), key=lambda k: k.frame)
     document = _with_keyframes(document, layer, keyframes)
@@ -234,6 +249,7 @@ def delete_outline(document: Document, layer_id: int, frame: int, outline_id: in
     if not drawing.outlines:
         return delete_keyframe(document, layer_id, frame)
     document = with_keyframe(document, layer, replace(keyframe, drawing=drawing))
+    document = drop_pins_on(document, layer_id, frame, {outline_id})
     return _in_both_spans(document, layer_id, frame, lambda pair, mine: None if mine(pair) == outline_id else pair)
 
 
@@ -288,7 +304,7 @@ def _style_near(layer: Layer, frame: int) -> Style:
 def _with_keyframes(
     document: Document, layer: Layer, keyframes: list[Keyframe], *, moved: Mapping[int, int] = NOT_MOVED
 ) -> Document:
-    """Set all keyframes; a span whose keyframe after is another one now forgets its pairs.
+    """Set all keyframes; a span whose keyframe after is another one now forgets its pairs and arcs.
 
     `moved` tells the frame that a keyframe came from. Drawings cannot tell: several keyframes may share one.
     """
@@ -296,8 +312,9 @@ def _with_keyframes(
     renewed = []
     for k, following in itertools.zip_longest(keyframes, keyframes[1:]):
         follower = following.drawing if following else None
-        if k.span.pairs and followers.get(moved.get(k.frame, k.frame)) is not follower:
-            k = replace(k, span=replace(k.span, pairs=()))
+        if (k.span.pairs or k.span.pins) and followers.get(moved.get(k.frame, k.frame)) is not follower:
+            pins = tuple(replace(p, handles=None) for p in k.span.pins) if following else ()
+            k = replace(k, span=replace(k.span, pairs=(), pins=pins))
         renewed.append(k)
     return document.with_layer(replace(layer, keyframes=tuple(renewed)))
 
@@ -305,7 +322,7 @@ def _with_keyframes(
 def _with_changed_outline(
     document: Document, layer: Layer, keyframe: Keyframe, outline_id: int, moved: Positions
 ) -> Document:
-    """Set a keyframe in which one outline got other vertices, and carry the anchors on it along."""
+    """Set a keyframe in which one outline got other vertices, and carry the anchors and pins on it along."""
     document = with_keyframe(document, layer, keyframe)
     count = len(keyframe.drawing.outline(outline_id).points)
     here = layer.frames().index(keyframe.frame)
@@ -328,7 +345,13 @@ def _with_changed_outline(
             pair, anchors=holding(anchors, counts, closed=partner.closed), correspondence=None, chosen=False
         )
 
-    return _in_both_spans(document, layer.id, keyframe.frame, carried)
+    document = _in_both_spans(document, layer.id, keyframe.frame, carried)
+    return change_pins(
+        document,
+        layer.id,
+        keyframe.frame,
+        lambda pin: replace(pin, position=moved(pin.position)) if pin.outline == outline_id else pin,
+    )
 
 
 def _unsolved(pair: OutlinePair, moved: bool) -> OutlinePair | None:

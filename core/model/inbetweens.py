@@ -14,6 +14,7 @@ from core.methods.plan import AlignedPair
 from core.model.color import mix_colors
 from core.model.document import Document, Keyframe, Layer, Span, ratio_in_span
 from core.model.drawing import Drawing, Outline, Style
+from core.model.pins import PlannedOutline, planned_pins
 from core.model.solving import Paths, solve_paths
 
 
@@ -178,8 +179,16 @@ def plan_span(
     links += [_shrinking(o, after) for o in before.outlines if o.id not in partnered_before]
     links += [_growing(o, before) for o in after.outlines if o.id not in partnered_after]
     pairs = [link.aligned for link in links]
-    paths = solve_paths(pairs, span.method, span.turns, repair=span.repair, progress=progress, cancelled=cancelled)
+    pins = planned_pins(span.pins, [_for_pins(link, before) for link in links]) if span.pins else ()
+    paths = solve_paths(
+        pairs, span.method, span.turns, pins=pins, repair=span.repair, progress=progress, cancelled=cancelled
+    )
     return SpanPlan(tuple(links), paths, (before.style, after.style))
+
+
+def _for_pins(link: Link, before: Drawing) -> PlannedOutline:
+    count = len(before.outline(link.before).points) if link.before is not None else 0
+    return PlannedOutline(link.before, link.before_positions, count, link.aligned.closed)
 
 
 def _paired(a: Outline, b: Outline, pair: PairMatch) -> Link:

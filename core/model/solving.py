@@ -7,6 +7,7 @@ import numpy as np
 
 from core.certificate import SEVERITIES, certify_drawing
 from core.geometry.outline import FloatArray
+from core.methods.pins import Pin, PinnedPaths
 from core.methods.plan import AlignedPair, DrawingPlan, plan_drawing
 from core.model.document import AUTO
 from core.repair.plan import RepairedDrawingPlan, repair_drawing
@@ -19,6 +20,9 @@ LOOKS = np.arange(1, 16) / 16
 
 TIE = 0.02
 """Relative difference in stretch below which two methods are equally good."""
+
+SEEN = 1e-4
+"""Distance, in sizes of the drawing, that a pinned point may be off before it is said."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,12 +45,29 @@ class Paths:
     reason: str = ""
     notes: tuple[str, ...] = ()
 
+    @property
+    def pins(self) -> PinnedPaths | None:
+        """The paths before a repair, if they are led through pins."""
+        drawing = self.plan if isinstance(self.plan, DrawingPlan) else self.plan.drawing
+        return drawing.paths if isinstance(drawing.paths, PinnedPaths) else None
+
+    def pinned(self, t: FloatArray) -> FloatArray:
+        """Return where the k pinned points are at the times `t` (T,), as (T, k, 2) in px, repaired or not."""
+        if self.pins is None:
+            return np.zeros((len(t), 0, 2))
+        places = self.pins.held.wanted(t)
+        if isinstance(self.plan, RepairedDrawingPlan) and self.plan.changed:
+            frames = np.concatenate(self.plan.evaluate(t), axis=1)
+            places = self.pins.held.at(frames[..., 0] + 1j * frames[..., 1])
+        return np.stack([places.real, places.imag], axis=-1)
+
 
 def solve_paths(
     pairs: Sequence[AlignedPair],
     method: str,
     turns: int,
     *,
+    pins: Sequence[Pin] = (),
     repair: bool = False,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
@@ -61,25 +82,39 @@ def solve_paths(
         lesser stretch.
     turns : int
         Extra whole turns.
+    pins : sequence of Pin
+        Points whose way is given.
     repair : bool
         Whether crossings are bent away; may take seconds.
     progress, cancelled
         Of the repair, as of `core.repair.plan.repair_drawing`.
     """
     if method == AUTO:
-        paths = _best(pairs, turns)
+        paths = _best(pairs, turns, pins)
     else:
-        plan = plan_drawing(pairs, method=method, turns=turns)
+        plan = plan_drawing(pairs, method=method, turns=turns, pins=pins)
         paths = Paths(plan, method, notes=(plan.note,) if plan.note else ())
     if not repair or not isinstance(paths.plan, DrawingPlan):
         return paths
     repaired = repair_drawing(paths.plan, progress=progress, cancelled=cancelled)
-    return Paths(repaired, paths.method, paths.reason, (*paths.notes, *repaired.notes))
+    notes = (*paths.notes, *repaired.notes, *_moved_pins(repaired))
+    return Paths(repaired, paths.method, paths.reason, notes)
 
 
-def _best(pairs: Sequence[AlignedPair], turns: int) -> Paths:
+def _moved_pins(repaired: RepairedDrawingPlan) -> tuple[str, ...]:
+    """Say so when a repair, which knows of no pins, has moved pinned points."""
+    paths = repaired.drawing.paths
+    if not repaired.changed or not isinstance(paths, PinnedPaths):
+        return ()
+    frames = np.concatenate(repaired.evaluate(LOOKS), axis=1)
+    off = np.abs(paths.held.at(frames[..., 0] + 1j * frames[..., 1]) - paths.held.wanted(LOOKS)).max()
+    size = np.ptp(frames, axis=(0, 1)).max()
+    return (f"the repair moved a pinned point by up to {off:.1f} px",) if off > SEEN * size else ()
+
+
+def _best(pairs: Sequence[AlignedPair], turns: int, pins: Sequence[Pin]) -> Paths:
     """Look at both methods' in-betweens, and take the one with fewer and lesser problems, then less stretch."""
-    plans = [plan_drawing(pairs, method=m, turns=turns) for m in CANDIDATES]
+    plans = [plan_drawing(pairs, method=m, turns=turns, pins=pins) for m in CANDIDATES]
     if plans[0].note.startswith("fell back"):  # there is nothing to choose from
         reason = f"auto chose intrinsic: {plans[0].note}"
         return Paths(plans[1], "intrinsic", reason)

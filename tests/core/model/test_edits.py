@@ -12,6 +12,7 @@ from core.model import edits
 from core.model.document import Anchor, Document, Layer, Span, Stage
 from core.model.drawing import Drawing, Outline, Style
 from core.model.easing import PRESETS, Easing
+from core.model.pins import SpanPin
 
 SQUARE = ((0, 0), (100, 0), (100, 100), (0, 100))
 DIAMOND = ((50, -20), (120, 50), (50, 120), (-20, 50))
@@ -396,6 +397,11 @@ def an_edit(draw, document):
         st.tuples(st.just(edits.move_anchor), st.just(frame), ids, ids, number, anchor),
         st.tuples(st.just(edits.delete_anchor), st.just(frame), ids, ids, number),
         st.tuples(st.just(edits.clear_anchors), st.just(frame)),
+        st.tuples(st.just(edits.add_pin), st.just(frame), st.builds(SpanPin, ids, place)),
+        st.tuples(st.just(edits.move_pin), st.just(frame), number, st.builds(SpanPin, ids, place)),
+        st.tuples(st.just(edits.set_pin_handles), st.just(frame), number, st.just(((0.0, 0.0), (9.0, 5.0)))),
+        st.tuples(st.just(edits.delete_pin), st.just(frame), number),
+        st.tuples(st.just(edits.clear_pins), st.just(frame)),
     ]
     if keyframes:
         copied = st.sampled_from([k.drawing for k in keyframes])
@@ -417,6 +423,7 @@ def test_whatever_edits_leave_can_be_saved_and_opened(data, closed):
             document = (
                 edits.add_anchor(document, 1, frame, 1, 1, Anchor(i, i)) if closed or i in (1, 2) else document
             )
+            document = edits.add_pin(document, 1, frame, SpanPin(1, i))
     for _ in range(4):
         edit, *arguments = data.draw(an_edit(document))
         kept = encode(document)
