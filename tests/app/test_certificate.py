@@ -211,11 +211,11 @@ def test_the_panel_follows_the_theme(crossing, panel, theme):
 def test_the_heat_map_colours_the_in_between_by_stretch_and_is_remembered(crossing, settings):
     crossing.session.go_to(8)
     plain = crossing.picture()
-    crossing.key("t")
+    crossing.menu("view.heat")
     assert crossing.editor.window.table["view.heat"].isChecked()
     assert ViewState(settings).options.heat
     assert crossing.picture() != plain
-    crossing.key("t")
+    crossing.menu("view.heat")
     assert crossing.picture() == plain
 
 
@@ -229,5 +229,5 @@ def test_heat_is_blue_where_edges_are_shorter_grey_where_they_are_the_same_and_o
 def test_a_keyframe_itself_has_no_heat(crossing):
     crossing.session.go_to(3)
     plain = crossing.picture()
-    crossing.key("t")
+    crossing.menu("view.heat")
     assert crossing.picture() == plain
