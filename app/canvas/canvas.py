@@ -2,7 +2,7 @@
 
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QPointF, QSizeF, Qt, Signal
-from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent, QResizeEvent, QWheelEvent
+from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent, QPaintEvent, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QGraphicsView, QWidget
 
 from app.canvas.camera import Camera, fitted
@@ -202,6 +202,11 @@ class Canvas(pg.GraphicsView):
             item.prepareGeometryChange()
         if self._follows_stage:
             self._set_camera(self._fitted_camera())
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        # worked out before any painter is at work: an error under an active painter ends the program
+        _ = self.content
+        super().paintEvent(event)
 
     # the pointer
 

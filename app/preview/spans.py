@@ -8,13 +8,14 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
+import numpy.typing as npt
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.preview.worker import NewestWins
 from core.correspondence.matching import match, match_quick
 from core.correspondence.pairing import Correspondence
 from core.errors import CancelledError, InkbetweenError
-from core.geometry.outline import perimeter
+from core.geometry.outline import FloatArray, perimeter
 from core.model.document import Document, Keyframe, Span
 from core.model.drawing import Drawing, Outline
 from core.model.edits import store_answer
@@ -28,6 +29,9 @@ QUICK_SECONDS = 0.012
 """A plan that takes no longer is made at every step of a drag."""
 
 MOST_DRAGGED_ROWS = 6000
+KEPT_BESIDE = 3
+"""Neighbours of a moved vertex that are kept on either side."""
+
 MOST_KEPT = 256
 
 Progress = Callable[[float], None]
@@ -288,9 +292,9 @@ class SpanPreview(QObject):
             return alike
         before_moves = task.before is not alike.task.before
         if self._coarse is None or self._coarse[:2] != (alike, before_moves):
-            moved = p if before_moves else q
-            own = moved == np.floor(moved)
-            self._coarse = alike, before_moves, replace(alike, rows=(p[own], q[own]))
+            old, new = (alike.task.before, task.before) if before_moves else (alike.task.after, task.after)
+            kept = _dragged_rows(p if before_moves else q, old, new)
+            self._coarse = alike, before_moves, replace(alike, rows=(p[kept], q[kept]))
         return self._coarse[2]
 
     def _kept_rows(self, task: _Task, alike: _Solved | None) -> Rows:
@@ -360,6 +364,15 @@ def _plan(task: "_PlanTask", progress: Progress, cancelled: Callable[[], bool]) 
         return task.solve(progress, cancelled)
     except CancelledError:
         return None
+
+
+def _dragged_rows(positions: FloatArray, old: Outline, new: Outline) -> npt.NDArray[np.bool_]:
+    """Return which rows stay: every other vertex of the outline in the hand, but all of them where it moves."""
+    moved = (old.points != new.points).any(axis=1)
+    for _ in range(KEPT_BESIDE):
+        moved |= np.roll(moved, 1) | np.roll(moved, -1)
+    vertex = positions.astype(np.intp)
+    return (positions == vertex) & ((vertex % 2 == 0) | moved[vertex % len(moved)])
 
 
 def _solve(tasks: tuple[_Task, ...]) -> list[_Solved]:
