@@ -84,6 +84,7 @@ class AlternativesPanel(QWidget):
         kept = pair is not None and pair.correspondence is not None
         self.again.setVisible(kept)
         self.badge.setText("")
+        self.badge.setVisible(kept)  # an empty row would still take its place
         if ranking is None or before is None or after is None:
             return
         current = self._current(ranking)
