@@ -9,7 +9,7 @@ from app.canvas.camera import Camera
 from app.canvas.content import Content
 from app.canvas.papers import AFTER, BEFORE, Paper
 from app.session import AnchorRef, OutlineRef
-from core.geometry.outline import FloatArray, points_at
+from core.geometry.outline import FloatArray, contains, locate, points_at
 
 VERTEX_REACH = 9.0
 EDGE_REACH = 7.0
@@ -61,23 +61,10 @@ def outline_under(
         i = int(gaps.argmin())
         if gaps[i] <= VERTEX_REACH and (vertex is None or gaps[i] < vertex.distance - 0.5):
             vertex = OutlineHit(where, which, ref, float(i), i, float(gaps[i]))
-        position, gap = _nearest_edge(points, outline.closed)
+        (position,), (gap,) = locate(points, (0.0, 0.0), closed=outline.closed)
         if gap <= reach and (edge is None or gap < edge.distance - 0.5):
-            edge = OutlineHit(where, which, ref, position, None, gap)
+            edge = OutlineHit(where, which, ref, float(position), None, float(gap))
     return vertex if vertex is not None and vertices_first else edge
-
-
-def _nearest_edge(points: FloatArray, closed: bool) -> tuple[float, float]:
-    """Position and distance of the place of the outline nearest to the origin."""
-    start = points if closed else points[:-1]
-    d = np.roll(points, -1, axis=0) - points if closed else np.diff(points, axis=0)
-    squared = np.maximum((d * d).sum(axis=1), 1e-300)
-    f = np.clip(-(start * d).sum(axis=1) / squared, 0.0, 1.0)
-    foot = start + f[:, None] * d
-    gaps = np.hypot(foot[:, 0], foot[:, 1])
-    i = int(gaps.argmin())
-    position = i + float(f[i])
-    return (position % len(points) if closed else position), float(gaps[i])
 
 
 def outline_around(
@@ -91,18 +78,9 @@ def outline_around(
             continue
         x, y = camera.to_stage(at, paper.offset)
         area = abs(float(np.ptp(outline.points[:, 0]) * np.ptp(outline.points[:, 1])))
-        if area < least and _inside(outline.points, x, y):
+        if area < least and contains(outline.points, (x, y))[0]:
             best, least = (paper, side, ref), area
     return best
-
-
-def _inside(points: FloatArray, x: float, y: float) -> bool:
-    """Even-odd rule."""
-    p, q = points, np.roll(points, -1, axis=0)
-    spans = (p[:, 1] > y) != (q[:, 1] > y)
-    p, q = p[spans], q[spans]
-    crossing = p[:, 0] + (y - p[:, 1]) * (q[:, 0] - p[:, 0]) / (q[:, 1] - p[:, 1])
-    return int(np.count_nonzero(crossing > x)) % 2 == 1
 
 
 def anchor_places(content: Content) -> list[tuple[AnchorRef, FloatArray, FloatArray]]:

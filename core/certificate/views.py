@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from core.errors import GeometryError
 from core.geometry.crossings import crossings
-from core.geometry.outline import FloatArray, edge_lengths, signed_area
+from core.geometry.outline import FloatArray, contains, edge_lengths, signed_area
 
 SMALL = 1e-3
 """Sizes of the outline: nobody sees an edge below this collapse, or explode."""
@@ -98,14 +98,5 @@ def winding(view: View, views: list[View]) -> int:
     """1 for an outline that fills, -1 for one that is a hole in the first keyframe in which it has an area."""
     k = 0 if np.ptp(view.ends[0], axis=0).max() > 0 else 1
     point = view.ends[k, 0]
-    around = [v for v in views if v is not view and v.closed and _inside(point, v.ends[k])]
+    around = [v for v in views if v is not view and v.closed and contains(v.ends[k], point)[0]]
     return -1 if len(around) % 2 else 1
-
-
-def _inside(point: FloatArray, outline: FloatArray) -> bool:
-    """Whether a point lies within a closed outline, even-odd."""
-    a, b = outline, np.roll(outline, -1, axis=0)
-    spans = (a[:, 1] > point[1]) != (b[:, 1] > point[1])
-    a, b = a[spans], b[spans]
-    x = a[:, 0] + (point[1] - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0])
-    return bool(np.count_nonzero(x > point[0]) % 2)

@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from core.correspondence.ring import ring
 from core.errors import CorrespondenceError
-from core.geometry.outline import FloatArray, as_points, perimeter, resample
+from core.geometry.outline import FloatArray, as_points, contains, perimeter, resample
 
 Outline = tuple[npt.ArrayLike, bool]
 """Vertices, and whether they are closed."""
@@ -149,18 +149,7 @@ def _depth(drawing: list[tuple[FloatArray, bool]], i: int) -> int:
     """Number of closed outlines that contain most of outline `i`."""
     probes = resample(drawing[i][0], 8)
     others = [p for k, (p, closed) in enumerate(drawing) if k != i and closed]
-    return sum(bool(_inside(p, probes).mean() > 0.5) for p in others)
-
-
-def _inside(polygon: FloatArray, points: FloatArray) -> npt.NDArray[np.bool_]:
-    """Whether points are inside by the even-odd rule: (k, 2) -> (k,)."""
-    x, y = points[:, 0, None], points[:, 1, None]
-    x0, y0 = polygon.T
-    x1, y1 = np.roll(polygon, -1, axis=0).T
-    spans = (y0 > y) != (y1 > y)
-    rise = np.where(y1 == y0, 1.0, y1 - y0)
-    left_of = x < x0 + (y - y0) * (x1 - x0) / rise
-    return np.asarray(np.count_nonzero(spans & left_of, axis=1) % 2 == 1)
+    return sum(bool(contains(p, probes).mean() > 0.5) for p in others)
 
 
 def _costs(a: _Traits, b: _Traits) -> FloatArray:

@@ -160,3 +160,14 @@ def locate(points: FloatArray, targets: npt.ArrayLike, *, closed: bool = True) -
     rows = np.arange(len(q))
     position = i + f[rows, i]
     return (np.mod(position, len(points)) if closed else position), gap[rows, i]
+
+
+def contains(points: FloatArray, targets: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+    """Return whether a closed outline has `targets` (k, 2) inside, by the even-odd rule; (k,)."""
+    x, y = np.atleast_2d(np.asarray(targets, dtype=np.float64)).T[..., None]
+    x0, y0 = points.T
+    x1, y1 = np.roll(points, -1, axis=0).T
+    spans = (y0 > y) != (y1 > y)
+    rise = np.where(y1 == y0, 1.0, y1 - y0)
+    left_of = x < x0 + (y - y0) * (x1 - x0) / rise
+    return np.asarray(np.count_nonzero(spans & left_of, axis=1) % 2 == 1)

@@ -2,11 +2,13 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from shapely.geometry import Point, Polygon
 
 from core.errors import GeometryError
 from core.geometry.outline import (
     arc_lengths,
     as_points,
+    contains,
     edge_lengths,
     edge_vectors,
     lengths_at,
@@ -157,3 +159,14 @@ def test_checked_points_are_the_very_array():
 def test_what_cannot_be_drawn_is_named(points, message):
     with pytest.raises(GeometryError, match=message):
         as_points(points, name="before")
+
+
+@given(st.integers(3, 12), st.integers(0, 2**32 - 1))
+def test_what_an_outline_contains_is_what_an_independent_judge_says(count, seed):
+    rng = np.random.default_rng(seed)
+    angles = np.sort(rng.uniform(0, 2 * np.pi, count))
+    points = rng.uniform(1, 9, count)[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
+    shape = Polygon(points)
+    assume(shape.is_valid)
+    targets = rng.uniform(-10, 10, (40, 2))
+    assert contains(points, targets).tolist() == [shape.contains(Point(t)) for t in targets]
