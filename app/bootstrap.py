@@ -4,7 +4,7 @@ import signal
 import sys
 from pathlib import Path
 
-from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer
+from PySide6.QtCore import QObject, QSize, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QIcon
 from PySide6.QtWidgets import QApplication, QMenu
 
@@ -358,20 +358,6 @@ class Editor(QObject):
         self.certificates.stop()
         self.settings.keep("window/geometry", self.window.saveGeometry())
         event.accept()
-
-
-class _FileOpener(QObject):
-    """Opens the files that the desktop hands to a running program (macOS)."""
-
-    def __init__(self, editor: Editor) -> None:
-        super().__init__(editor)
-        self._editor = editor
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        if event.type() == QEvent.Type.FileOpen:
-            self._editor.files.open_path(Path(event.file()))
-            return True
-        return False
 
 
 def make_application() -> QApplication:

@@ -165,6 +165,8 @@ QToolButton {{ background: transparent; color: {t.text}; border: 1px solid trans
 QToolButton:hover {{ background: {t.raised}; border-color: {t.line}; }}
 QToolButton:pressed {{ background: {t.line}; }}
 QToolButton:checked {{ background: {t.accent}; color: {t.accent_text}; border-color: {t.accent}; }}
+QToolButton:disabled, QCheckBox:disabled {{ color: {t.muted}; }}
+QToolButton:checked:disabled {{ background: {t.line}; border-color: {t.line}; }}
 QToolButton:focus, QPushButton:focus {{ border-color: {t.accent}; }}
 QToolButton[segment="true"] {{ padding: 5px 6px; min-height: 18px; }}
 QToolButton[picture="true"] {{ background: {t.raised}; border-color: {t.line}; color: {t.muted};
@@ -205,6 +207,7 @@ QCheckBox::indicator {{ width: 15px; height: 15px; border: 1px solid {t.muted}; 
     background: {t.raised}; }}
 QCheckBox::indicator:checked {{ background: {t.accent}; border-color: {t.accent};
     image: url({_drawn("check", t.accent_text)}); }}
+QCheckBox::indicator:disabled {{ background: {t.panel}; border-color: {t.line}; }}
 QSlider::groove:horizontal {{ height: 4px; background: {t.line}; border-radius: 2px; }}
 QSlider::sub-page:horizontal {{ background: {t.accent}; border-radius: 2px; }}
 QSlider::handle:horizontal {{ width: 12px; height: 12px; margin: -4px 0; border-radius: 6px;

@@ -6,7 +6,6 @@ from PySide6.QtCore import QObject, Signal
 
 from app.settings import Settings
 
-ARRANGEMENTS = ("overlaid", "side by side", "compare")
 LINES = ("all", "anchors", "none")
 
 
@@ -17,7 +16,7 @@ class ViewOptions:
     Attributes
     ----------
     arrangement : str
-        One of ARRANGEMENTS; "compare" shows linear and intrinsic beside each other.
+        "overlaid", "side by side", or "compare": linear and intrinsic beside each other.
     lines : str
         One of LINES: which lines of the correspondence are drawn.
     onion : bool

@@ -28,10 +28,6 @@ class Pointer:
     def alt(self) -> bool:
         return bool(self.modifiers & Qt.KeyboardModifier.AltModifier)
 
-    @property
-    def ctrl(self) -> bool:
-        return bool(self.modifiers & Qt.KeyboardModifier.ControlModifier)
-
     def far_from(self, other: QPointF) -> bool:
         """Whether a press at `other` has become a drag."""
         d = self.at - other

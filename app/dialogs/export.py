@@ -1,6 +1,5 @@
 """File > Export Frames: where to, how large, which frames; then a progress bar that can be cancelled."""
 
-import threading
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
@@ -19,47 +18,27 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.dialogs.job import Job
 from app.export.frames import Exported, ExportSettings, export_frames, frame_path
 from app.panels.parts import label, number_field
 from core.errors import InkbetweenError
 from core.model.document import LARGEST_STAGE, Document
 
 
-class ExportJob(QObject):
-    """One export in a thread of its own; its signals reach the window's thread."""
+class ExportJob(Job):
+    """One export; it ends with an Exported."""
 
     progressed = Signal(int, int)
-    finished = Signal(object)  # Exported, or the InkbetweenError that stopped it
+    name, trouble = "export", "the export stopped"
 
     def __init__(self, document: Document, settings: ExportSettings, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._document, self._settings = document, settings
-        self._cancel = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="export", daemon=True)
 
-    def start(self) -> None:
-        self._thread.start()
-
-    def cancel(self) -> None:
-        self._cancel.set()
-
-    def wait(self) -> None:
-        self._thread.join()
-
-    def _run(self) -> None:
-        result: Exported | InkbetweenError
-        try:
-            result = export_frames(
-                self._document,
-                self._settings,
-                progress=self.progressed.emit,
-                cancelled=self._cancel.is_set,
-            )
-        except InkbetweenError as e:
-            result = e
-        except Exception as e:  # a mistake of ours must not leave the dialog waiting for ever
-            result = InkbetweenError(f"the export stopped: {e}")
-        self.finished.emit(result)
+    def work(self) -> Exported:
+        return export_frames(
+            self._document, self._settings, progress=self.progressed.emit, cancelled=self._cancel.is_set
+        )
 
 
 class ExportDialog(QDialog):

@@ -1,14 +1,13 @@
 """Reading an SVG beside the window, with a bar and Cancel when it takes a while."""
 
-import threading
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QProgressBar, QVBoxLayout, QWidget
 
+from app.dialogs.job import Job
 from app.panels.parts import label
-from core.errors import CancelledError, InkbetweenError
 
 BIG_FILE = 1_000_000
 PATIENCE_MS = 400
@@ -17,42 +16,21 @@ PATIENCE_MS = 400
 STEPS = 1000
 
 
-class ImportJob(QObject):
-    """One file read in a thread of its own; its signals reach the window's thread."""
+class ImportJob(Job):
+    """One file read; it ends with an Imported."""
 
     progressed = Signal(float)
-    finished = Signal(object)  # Imported, the InkbetweenError that stopped it, or None when cancelled
+    name = "import"
 
     def __init__(self, path: Path, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.path = path
-        self._cancel = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="import", daemon=True)
+        self.trouble = f"cannot import {path.name}"
 
-    def start(self) -> None:
-        self._thread.start()
-
-    def cancel(self) -> None:
-        self._cancel.set()
-
-    def wait(self) -> None:
-        self._thread.join()
-
-    def _run(self) -> None:
+    def work(self) -> object:
         from core.io.svg import read_svg
 
-        result: object
-        try:
-            result = read_svg(
-                self.path, tolerance=None, progress=self.progressed.emit, cancelled=self._cancel.is_set
-            )
-        except CancelledError:
-            result = None
-        except InkbetweenError as e:
-            result = e
-        except Exception as e:  # a mistake of ours must not leave the bar standing for ever
-            result = InkbetweenError(f"cannot import {self.path.name}: {e}")
-        self.finished.emit(result)
+        return read_svg(self.path, tolerance=None, progress=self.progressed.emit, cancelled=self._cancel.is_set)
 
 
 class ImportDialog(QDialog):

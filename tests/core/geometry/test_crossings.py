@@ -76,11 +76,10 @@ def test_frames_are_told_apart_and_chunks_do_not_matter():
     assert np.array_equal(simple_frames(frames), np.tile([True, False], 20_000))
 
 
-@pytest.mark.parametrize("scale", [1e-200, 1e-12, 1.0, 1e8])
-@pytest.mark.parametrize("shift", [0.0, 5e8])
+@pytest.mark.parametrize(
+    ("scale", "shift"), [(1e-200, 0.0), (1e-12, 0.0), (1.0, 0.0), (1e8, 0.0), (1.0, 5e8), (1e8, 5e8)]
+)
 def test_scale_and_place_are_no_matter(scale, shift):
-    if shift and scale < 1:
-        pytest.skip("no such outline exists in doubles")
     assert is_simple(SQUARE * scale + shift)
     assert not is_simple(BOW_TIE * scale + shift)
 
