@@ -32,6 +32,8 @@ class Theme:
     inbetween: str
     onion_before: str
     onion_after: str
+    skin_before: str
+    skin_after: str
     good: str
     warning: str
     error: str
@@ -62,6 +64,8 @@ DARK = Theme(
     inbetween="#f3f5f9",
     onion_before="#ff6161",
     onion_after="#3dd68c",
+    skin_before="#56b4e9",
+    skin_after="#e8700c",
     good="#3dd68c",
     warning="#f5c04e",
     error="#ff6161",
@@ -85,6 +89,8 @@ LIGHT = Theme(
     inbetween="#2a2f3a",
     onion_before="#d63b3b",
     onion_after="#1a9e5c",
+    skin_before="#0072b2",
+    skin_after="#d55e00",
     good="#1a9e5c",
     warning="#c98a05",
     error="#d63b3b",
@@ -221,6 +227,7 @@ QScrollBar::handle {{ background: {t.line}; border-radius: 5px; min-height: 24px
 QScrollBar::handle:hover {{ background: {t.muted}; }}
 QScrollBar::add-line, QScrollBar::sub-line, QScrollBar::add-page, QScrollBar::sub-page {{
     background: none; border: none; width: 0; height: 0; }}
+QFrame#popup {{ background: {t.panel}; border: 1px solid {t.line}; border-radius: 8px; }}
 QFrame#messagebar {{ background: {t.raised}; border: 1px solid {t.line}; border-radius: 8px; }}
 QFrame#messagebar[kind="error"] {{ border-color: {t.error}; }}
 QFrame#messagebar[kind="info"] {{ border-color: {t.accent}; }}

@@ -7,6 +7,12 @@ from PySide6.QtCore import QObject, Signal
 from app.settings import Settings
 
 LINES = ("all", "anchors", "none")
+TINTS = {"red and green": ("onion_before", "onion_after"), "blue and orange": ("skin_before", "skin_after")}
+"""Colours of the theme for the onion skin before and after the playhead.
+
+The second pair is of M. Okabe and K. Ito (2008), told apart with any kind of colour vision; before is the blue one,
+as with the keyframes.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,9 +27,19 @@ class ViewOptions:
         One of LINES: which lines of the correspondence are drawn.
     onion : bool
     onion_before, onion_after : int
-        Number of frames shown on either side of the playhead, 0 to 12.
+        Number of drawings shown on either side of the playhead, 0 to 12.
     onion_strength : float
         Opacity of the nearest one, 0.05 to 1.
+    onion_keys : bool
+        Only keyframes; otherwise in-betweens too.
+    onion_tints : str
+        One of TINTS.
+    onion_filled : bool
+        Drawings are filled; otherwise only their outlines are drawn.
+    onion_all : bool
+        All visible layers show it; otherwise the active one alone.
+    onion_off : frozenset of int
+        Ids of layers that do not show it; forgotten with the document.
     hues : bool
         Both outlines are tinted along their length, matching parts alike.
     heat : bool
@@ -40,6 +56,11 @@ class ViewOptions:
     onion_before: int = 2
     onion_after: int = 2
     onion_strength: float = 0.5
+    onion_keys: bool = False
+    onion_tints: str = "red and green"
+    onion_filled: bool = False
+    onion_all: bool = False
+    onion_off: frozenset[int] = frozenset()
     hues: bool = False
     heat: bool = False
     paths: bool = False
@@ -63,6 +84,10 @@ class ViewState(QObject):
             paths=settings.flag("view/paths", d.paths),
             onion_before=int(settings.number("view/onion_before", d.onion_before, 0, 12)),
             onion_after=int(settings.number("view/onion_after", d.onion_after, 0, 12)),
+            onion_keys=settings.flag("view/onion_keys", d.onion_keys),
+            onion_tints=_one_of(settings.text("view/onion_tints", d.onion_tints), tuple(TINTS)),
+            onion_filled=settings.flag("view/onion_filled", d.onion_filled),
+            onion_all=settings.flag("view/onion_all", d.onion_all),
             onion_strength=settings.number("view/onion_strength", d.onion_strength, 0.05, 1),
         )
 
@@ -77,7 +102,7 @@ class ViewState(QObject):
             return
         self._options = options
         for f in fields(options):
-            if f.name not in ("arrangement", "final"):  # a fresh start shows the plain view
+            if f.name not in ("arrangement", "final", "onion_off"):  # a fresh start shows the plain view
                 self._settings.keep(f"view/{f.name}", getattr(options, f.name))
         self.changed.emit()
 

@@ -14,12 +14,12 @@ from app.canvas.items import (
     LabelsItem,
     LinesItem,
     MarkItem,
-    OnionItem,
     OthersItem,
     PaperItem,
     ShapesItem,
     ToolItem,
 )
+from app.canvas.onion import OnionItem
 from app.canvas.papers import whole_area
 from app.canvas.paths import PathsItem, PinsItem
 from app.canvas.pins import PinMark, pin_marks

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.canvas.papers import AFTER, BEFORE, FILM, Paper, papers_for
+from app.canvas.skins import OnionSkin, OutlineShapes, onion_skins
 from app.preview.spans import SpanPreview
 from app.session import OutlineRef, Session
 from app.view import ViewOptions
@@ -17,17 +18,6 @@ from core.model.motion import SpanMotion, drawing_picture
 
 FILM_TIMES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 """As in the figures of the papers on shape blending."""
-
-OutlineShapes = tuple[tuple[FloatArray, bool], ...]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class OnionSkin:
-    """One neighbouring frame: its outlines, its side of the playhead and its opacity."""
-
-    outlines: OutlineShapes
-    side: str
-    strength: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -110,7 +100,7 @@ def build_content(session: Session, preview: SpanPreview, options: ViewOptions) 
         float(motion.times([frame])[0]) if motion is not None else None,
         picture if session.shows(layer) or not options.final else None,
         _others(session, preview),
-        _onion(session, preview, options) if options.onion and not options.final else (),
+        onion_skins(session, preview, options) if options.onion and not options.final else (),
         _films(papers, session, preview),
     )
 
@@ -126,44 +116,6 @@ def _others(session: Session, preview: SpanPreview) -> tuple[tuple[Picture, bool
             if picture is not None:
                 found.append((picture, in_front))
     return tuple(found)
-
-
-def _onion(session: Session, preview: SpanPreview, options: ViewOptions) -> tuple[OnionSkin, ...]:
-    """Return the skins, the farthest first, so that near ones lie on top."""
-    wanted = []
-    for side, count, step in (("before", options.onion_before, -1), ("after", options.onion_after, 1)):
-        for distance in range(count, 0, -1):
-            frame = session.frame + step * distance
-            if 1 <= frame <= session.document.length:
-                strength = options.onion_strength * (1 - (distance - 1) / (count + 1))
-                wanted.append((frame, side, strength))
-    shapes = _layer_outlines(session, preview, [frame for frame, _, _ in wanted])
-    return tuple(OnionSkin(shapes[f], side, strength) for f, side, strength in wanted if f in shapes)
-
-
-def _layer_outlines(session: Session, preview: SpanPreview, frames: list[int]) -> dict[int, OutlineShapes]:
-    """Return the active layer at other frames; none behind its last keyframe, where nothing moves.
-
-    The in-betweens of one span are evaluated together.
-    """
-    found: dict[int, OutlineShapes] = {}
-    by_span: dict[int, tuple[Keyframe, Keyframe, list[int]]] = {}
-    for frame in frames:
-        keyframe = session.layer.keyframe_at(frame)
-        before, after = session.layer.around(frame)
-        if keyframe is not None:
-            found[frame] = drawing_picture(keyframe.drawing).outlines
-        elif before is not None and before.span.hold:
-            continue  # the drawing that is held is the keyframe's
-        elif before is not None and after is not None:
-            by_span.setdefault(before.frame, (before, after, []))[2].append(frame)
-    for before, after, inside in by_span.values():
-        motion = preview.motions.of(session.document, session.layer, before, after)
-        shapes = motion.frames(inside)
-        closed = [link.aligned.closed for link in motion.plan.links]
-        for i, frame in enumerate(inside):
-            found[frame] = tuple((s[i], c) for s, c in zip(shapes, closed, strict=True))
-    return found
 
 
 def _films(

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 KEY_WIDTH = 1.8
 INBETWEEN_WIDTH = 2.2
 HUE_WIDTH = 3.0
-SKIN_WIDTH = 1.0
 HUES = ("#0072b2", "#56b4e9", "#009e73", "#f0e442", "#e69f00", "#d55e00", "#cc79a7")
 """The colours of M. Okabe and K. Ito (2008), which people with any kind of colour vision can tell apart."""
 
@@ -96,20 +95,6 @@ class OthersItem(CanvasItem):
             if in_front == self.in_front:
                 for paper in content.papers:
                     paint_picture(painter, picture, self.canvas.camera.transform(paper.offset))
-
-
-class OnionItem(CanvasItem):
-    """Neighbouring frames: before red, after green, fading with the distance."""
-
-    def draw(self, painter: QPainter, content: Content) -> None:
-        for paper in content.papers:
-            if INBETWEEN not in paper.shows:
-                continue
-            transform = self.canvas.camera.transform(paper.offset)
-            for skin in content.onion:
-                color = self.canvas.theme.color(f"onion_{skin.side}", skin.strength)
-                outlines = [(spaced(p, self.canvas.camera.scale), closed) for p, closed in skin.outlines]
-                self.paint_lines(painter, outlines, color, SKIN_WIDTH, transform)
 
 
 class FilmItem(CanvasItem):

@@ -4,8 +4,9 @@ from fractions import Fraction
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QSlider, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
 
+from app.panels.onion import OnionFields
 from app.panels.parts import label, number_field, separator
 from app.panels.track import Track
 from app.playback import Playback
@@ -67,7 +68,7 @@ class Timeline(QWidget):
         self._add_frame_fields(row)
         row.addStretch(1)
         row.addWidget(action_button(actions["view.onion"]))
-        self.onion_fields = self._onion_fields()
+        self.onion_fields = OnionFields(self.session, self.view_state, self.theme)
         row.addWidget(self.onion_fields)
         return bar
 
@@ -92,35 +93,10 @@ class Timeline(QWidget):
         row.addWidget(self.rate_field)
         row.addWidget(label("fps", "muted"))
 
-    def _onion_fields(self) -> QWidget:
-        fields = QWidget()
-        row = QHBoxLayout(fields)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(4)
-        self.onion_before = number_field(
-            0, 12, "Onion skin: frames before, red", lambda n: self.view_state.set(onion_before=n), 40
-        )
-        self.onion_after = number_field(
-            0, 12, "Onion skin: frames after, green", lambda n: self.view_state.set(onion_after=n), 40
-        )
-        self.onion_strength = QSlider(Qt.Orientation.Horizontal)
-        self.onion_strength.setRange(5, 100)
-        self.onion_strength.setFixedWidth(80)
-        self.onion_strength.setToolTip("Onion skin: strength")
-        self.onion_strength.valueChanged.connect(lambda n: self.view_state.set(onion_strength=n / 100))
-        for widget in (
-            self.onion_before,
-            label("before", "muted"),
-            self.onion_after,
-            label("after", "muted"),
-            self.onion_strength,
-        ):
-            row.addWidget(widget)
-        return fields
-
     def set_theme(self, theme: Theme) -> None:
         self.theme = theme
         self.track.set_theme(theme)
+        self.onion_fields.set_theme(theme)
 
     def _refresh(self, *_: object) -> None:
         document = self.session.document
@@ -130,12 +106,6 @@ class Timeline(QWidget):
         if not self.rate_field.hasFocus():
             self.rate_field.setText(rate_text(document.rate))
         self.t_label.setText(self._t_text())
-        options = self.view_state.options
-        _show(self.onion_before, options.onion_before)
-        _show(self.onion_after, options.onion_after)
-        _show(self.onion_strength, round(100 * options.onion_strength))
-        for widget in (self.onion_before, self.onion_after, self.onion_strength):
-            widget.setEnabled(options.onion)
 
     def _t_text(self) -> str:
         before, after = self.session.span_keyframes()

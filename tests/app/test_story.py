@@ -355,20 +355,6 @@ def test_a_senseless_rate_is_refused_with_a_sentence(hand, text) -> None:
     assert "rate" in hand.message
 
 
-def test_the_onion_skin_shows_as_many_frames_as_asked_for(hand, qtbot) -> None:
-    two_keyframes(hand)
-    hand.session.go_to(12)
-    timeline = hand.editor.window.timeline
-    timeline.onion_before.setValue(3)
-    timeline.onion_after.setValue(1)
-    timeline.onion_strength.setValue(80)
-    skins = hand.canvas.content.onion
-    assert [s.side for s in skins] == ["before"] * 3 + ["after"]
-    assert [s.strength for s in skins] == pytest.approx([0.4, 0.6, 0.8, 0.8])
-    hand.key("o")
-    assert hand.canvas.content.onion == ()
-
-
 def test_everything_is_undone_to_the_start_and_redone_to_the_end(hand) -> None:
     start = hand.session.document
     two_keyframes(hand)
