@@ -1,6 +1,6 @@
 """The table of actions: what every menu entry and button is called, its keys and its icon. No logic is here."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Qt
@@ -81,6 +81,8 @@ ACTIONS: tuple[ActionSpec, ...] = (
     _line("Edit"),
     ActionSpec("edit.select_all", "Edit", "Select All", ("Ctrl+A",)),
     ActionSpec("edit.select_none", "Edit", "Select None", ("Ctrl+Shift+A",)),
+    _line("Edit"),
+    ActionSpec("edit.shortcuts", "Edit", "Shortcuts…", tip="Choose the keys of another program, or your own"),
     ActionSpec("view.overlaid", "View", "Overlaid", ("1",), "overlay", checkable=True, group="arrangement"),
     ActionSpec("view.side", "View", "Side by Side", ("2",), "side-by-side", checkable=True, group="arrangement"),
     ActionSpec(
@@ -203,7 +205,10 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("play.next_key", "Span", "Next Keyframe", ("Ctrl+.",)),
     ActionSpec("play.first", "Span", "First Frame", ("Home",), "first"),
     ActionSpec("play.last", "Span", "Last Frame", ("End",), "last"),
-    ActionSpec("help.keys", "Help", "Keys and Mouse", ("F1",)),
+    ActionSpec("help.find", "Help", "Find Command…", ("Ctrl+K",), tip="Run any command by a part of its name"),
+    ActionSpec("help.keys", "Help", "Keys and Mouse", ("F1",), tip="Show every key over the window"),
+    ActionSpec("help.tour", "Help", "Tour", tip="Draw, correspond, scrub and export in a minute"),
+    _line("Help"),
     ActionSpec("help.about", "Help", "About Inkbetween"),
 )
 MENUS = ("File", "Edit", "View", "Draw", "Insert", "Span", "Samples", "Help")
@@ -216,24 +221,55 @@ class ActionTable(QObject):
         super().__init__(parent)
         self.actions: dict[str, QAction] = {}
         self._specs = {spec.id: spec for spec in ACTIONS if spec.id}
+        self._keys: dict[str, tuple[str, ...]] = {spec.id: spec.keys for spec in self._specs.values()}
         self._groups: dict[str, QActionGroup] = {}
         for spec in self._specs.values():
             self.actions[spec.id] = self._made(spec)
+            self._show_keys(spec.id)
         self.set_theme(theme)
 
     def _made(self, spec: ActionSpec) -> QAction:
         action = QAction(spec.text, self)
         action.setObjectName(spec.id)
-        action.setShortcuts([QKeySequence(k) for k in spec.keys])
         action.setShortcutContext(Qt.ShortcutContext.WindowShortcut)
         action.setCheckable(spec.checkable)
-        tip = spec.tip or spec.text.rstrip("…")
-        action.setToolTip(f"{tip} ({spec.keys[0]})" if spec.keys else tip)
         action.setStatusTip("")
         if spec.group:
             group = self._groups.setdefault(spec.group, QActionGroup(self))
             group.addAction(action)
         return action
+
+    def _show_keys(self, name: str) -> None:
+        """Give an action its keys, and its tooltip the first of them."""
+        action, spec = self.actions[name], self._specs[name]
+        action.setShortcuts([QKeySequence(k) for k in self._keys[name]])
+        tip = spec.tip or action.text().rstrip("…")
+        action.setToolTip(f"{tip} ({self.key_of(name)})" if self._keys[name] else tip)
+
+    def set_keys(self, keys: Mapping[str, tuple[str, ...]]) -> None:
+        """Give actions other keys."""
+        for name in keys.keys() & self.actions.keys():
+            if self._keys[name] != keys[name]:
+                self._keys[name] = keys[name]
+                self._show_keys(name)
+
+    def keys_of(self, name: str) -> tuple[str, ...]:
+        """Return the keys of an action as they are now."""
+        return self._keys[name]
+
+    def key_of(self, name: str) -> str:
+        """Return the first key of an action; "" if it has none."""
+        return self._keys[name][0] if self._keys[name] else ""
+
+    def set_text(self, name: str, text: str) -> None:
+        """Call an action otherwise, as Play is called Pause while the film runs."""
+        if self.actions[name].text() != text:
+            self.actions[name].setText(text)
+            self._show_keys(name)
+
+    def spec(self, name: str) -> ActionSpec:
+        """Return an action's row of the table."""
+        return self._specs[name]
 
     def set_theme(self, theme: Theme) -> None:
         for spec in self._specs.values():

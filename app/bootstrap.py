@@ -12,10 +12,11 @@ import resources
 from app import editing, matching
 from app.canvas.reference import current_reference
 from app.dialogs.export import ExportDialog
-from app.dialogs.help import show_about, show_keys
+from app.dialogs.help import show_about
 from app.dialogs.stage import StageDialog
 from app.editing import Clipboard
 from app.files import Files
+from app.guidance import Guidance
 from app.incoming import Incoming
 from app.playback import Playback
 from app.preview.alternatives import AlternativesPreview
@@ -75,6 +76,7 @@ class Editor(QObject):
         )
         self.files = Files(self.window, self.session, self.settings, self.preview.with_answers, self.window.tell)
         self.incoming = Incoming(self.window, self.session, self.settings)
+        self.guidance = Guidance(self.window, self.files, self.settings, self)
         self.export_dialog: ExportDialog | None = None
         self.window.table.connect_all(self._runs())
         self._connect()
@@ -94,6 +96,7 @@ class Editor(QObject):
             | self._view_runs()
             | {name: lambda n=name: self.window.choose_tool(n) for name in self.window.tools}
             | self._key_runs()
+            | self.guidance.runs
         )
 
     def _file_runs(self):
@@ -109,7 +112,6 @@ class Editor(QObject):
             "file.export": self.export_frames,
             "file.close": files.new,
             "file.quit": self.window.close,
-            "help.keys": lambda: show_keys(window, window.tools.values()),
             "help.about": lambda: show_about(window),
         }
 
@@ -255,8 +257,7 @@ class Editor(QObject):
         table, playing = self.window.table, self.playback.playing
         text = "Pause" if playing else "Play"
         if table["play.toggle"].text() != text:
-            table["play.toggle"].setText(text)
-            table["play.toggle"].setToolTip(f"{text} (Space)")
+            table.set_text("play.toggle", text)
             table["play.toggle"].setIcon(icon(text.lower(), self.window.theme))
         table["play.loop"].setChecked(self.playback.loop)
 
@@ -326,6 +327,7 @@ class Editor(QObject):
         dialog = ExportDialog(self.session.document, name, folder / f"{name} frames", self.window)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.told.connect(self.window.tell)
+        dialog.told.connect(self.guidance.note_told)
         dialog.destroyed.connect(self._forget_dialog)
         self.export_dialog = dialog
         dialog.show()
@@ -383,6 +385,7 @@ def run(path: str | None = None, *, sample: bool = False) -> int:
         else:
             editor.files.open_path(Path(path))
     editor.window.show()
+    editor.guidance.tour.offer()
     signal.signal(signal.SIGINT, lambda *_: editor.window.close())
     beat = QTimer()  # Python sees Ctrl+C only when it runs now and then
     beat.start(200)

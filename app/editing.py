@@ -61,7 +61,7 @@ def cut(session: Session, clipboard: Clipboard) -> None:
 def paste(session: Session, clipboard: Clipboard) -> None:
     """Add the remembered outlines to the drawing at the playhead, which may be a new keyframe."""
     if not clipboard.outlines:
-        session.problem.emit("Nothing to paste: copy an outline first (Ctrl+C).")
+        session.problem.emit("Nothing to paste: copy an outline first.")
         return
     layer_id, frame = session.layer.id, session.frame
     here = session.layer.keyframe_at(frame)
@@ -104,7 +104,7 @@ def add_keyframe(session: Session, plans: PlanCache) -> None:
         return
     drawing = shown_drawing(session, plans)
     if drawing is None:
-        session.problem.emit("Nothing is shown here yet: draw with the pen (P) or the pencil (B).")
+        session.problem.emit("Nothing is shown here yet: draw with the pen or the pencil.")
         return
     session.apply("Add Keyframe", put_drawing, layer.id, frame, drawing)
 
@@ -131,7 +131,7 @@ def copy_to_other_keyframe(session: Session) -> None:
     """
     source, target = _copy_ends(session)
     if source is None or target is None:
-        session.problem.emit("There is no drawing to copy yet: draw one with the pen (P) or the pencil (B).")
+        session.problem.emit("There is no drawing to copy yet: draw one with the pen or the pencil.")
         return
     if session.apply("Copy Drawing", put_drawing, session.layer.id, target, source.drawing):
         session.go_to(target)

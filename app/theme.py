@@ -160,6 +160,10 @@ QLabel {{ color: {t.text}; background: transparent; }}
 QLabel[role="title"] {{ color: {t.muted}; font-size: 11px; font-weight: 600; }}
 QLabel[role="muted"] {{ color: {t.muted}; }}
 QLabel[role="strong"] {{ font-weight: 600; }}
+QLabel[role="heading"] {{ font-size: 16px; font-weight: 600; }}
+QLabel[role="key"] {{ background: {t.raised}; border: 1px solid {t.line}; border-radius: 5px; padding: 1px 6px; }}
+QLabel[held="true"] {{ color: {t.accent_text}; background: {t.accent}; border-radius: 4px; }}
+QFrame#card {{ background: {t.panel}; border: 1px solid {t.line}; border-radius: 10px; }}
 QFrame#separator {{ background: {t.line}; border: none; }}
 QWidget#side, QWidget#toolbox, QWidget#timeline {{ background: {t.panel}; }}
 QWidget#side {{ border-left: 1px solid {t.line}; }}
@@ -208,6 +212,13 @@ QSpinBox::up-button, QSpinBox::down-button, QDoubleSpinBox::up-button, QDoubleSp
 QComboBox::drop-down {{ border: none; width: 18px; }}
 QComboBox QAbstractItemView {{ background: {t.panel}; color: {t.text}; border: 1px solid {t.line};
     selection-background-color: {t.accent}; selection-color: {t.accent_text}; outline: none; }}
+QTreeWidget {{ background: {t.raised}; color: {t.text}; border: 1px solid {t.line}; border-radius: 7px;
+    outline: none; }}
+QTreeWidget#palette {{ background: {t.panel}; border: none; }}
+QTreeWidget::item {{ min-height: 22px; padding: 2px 6px; }}
+QTreeWidget::item:selected {{ background: {t.accent}; color: {t.accent_text}; }}
+QTreeWidget::item:disabled {{ color: {t.muted}; }}
+QHeaderView::section {{ background: {t.panel}; color: {t.muted}; border: none; padding: 4px 8px; }}
 QCheckBox {{ color: {t.text}; spacing: 8px; }}
 QCheckBox::indicator {{ width: 15px; height: 15px; border: 1px solid {t.muted}; border-radius: 4px;
     background: {t.raised}; }}

@@ -10,8 +10,8 @@ LINES = ("all", "anchors", "none")
 TINTS = {"red and green": ("onion_before", "onion_after"), "blue and orange": ("skin_before", "skin_after")}
 """Colours of the theme for the onion skin before and after the playhead.
 
-The second pair is of M. Okabe and K. Ito (2008), told apart with any kind of colour vision; before is the blue one,
-as with the keyframes.
+The second pair is of M. Okabe and K. Ito (2008), told apart with any kind of colour vision; blue is before, as
+with the keyframes.
 """
 
 

@@ -20,6 +20,8 @@ from app.panels.alternatives import AlternativesPanel
 from app.panels.certificate import CertificatePanel
 from app.panels.drawing import DrawingPanel
 from app.panels.easing import EasingPanel
+from app.panels.empty import WithoutSpan
+from app.panels.hints import HintBar
 from app.panels.messagebar import MessageBar
 from app.panels.parts import separator
 from app.panels.reference import ReferencePanel
@@ -79,6 +81,7 @@ class Window(QMainWindow):
         self.certificate_panel.problemChosen.connect(self.canvas.mark)
         self.drawing_panel = DrawingPanel(session, theme, *self._tolerance())
         self.reference_panel = ReferencePanel(session)
+        self._advise()
         self.setCentralWidget(self._central())
         self.message_bar = MessageBar(self.canvas, theme)
         self._make_status_bar()
@@ -86,6 +89,13 @@ class Window(QMainWindow):
         self.setAcceptDrops(True)
         self.resize(1440, 900)
         self.setMinimumSize(1000, 560)
+
+    def _advise(self) -> None:
+        """Let panels that are about a span say what they are for while there is none."""
+        pairings = "Between two keyframes other good pairings are shown here, as pictures to choose from."
+        self.span_panel.correspondence_section.box.addWidget(WithoutSpan(self.session, pairings))
+        checks = "Between two keyframes every drawing is checked here: crossings, stretch, lost area."
+        self.certificate_panel.section.box.addWidget(WithoutSpan(self.session, checks))
 
     # laying out
 
@@ -155,13 +165,12 @@ class Window(QMainWindow):
     def _make_status_bar(self) -> None:
         bar = self.statusBar()
         bar.setSizeGripEnabled(False)
-        self.hint_label = QLabel()
-        self.hint_label.setMinimumWidth(1)  # a narrow window cuts the hint, not the window's width
+        self.hints = HintBar(self.canvas)
         self.place_label = QLabel()
         self.place_label.setMinimumWidth(90)
         self.zoom_label = QLabel()
         self.state_label = QLabel()
-        bar.addWidget(self.hint_label, 1)
+        bar.addWidget(self.hints, 1)
         for widget in (self.state_label, self.place_label, self.zoom_label):
             bar.addPermanentWidget(widget)
         self.canvas.pointed.connect(self.place_label.setText)
@@ -209,8 +218,6 @@ class Window(QMainWindow):
         self.table[name].setChecked(True)
         if tool is not self.canvas.tool:
             self.canvas.set_tool(tool)
-        self.hint_label.setText(tool.hint)
-        self.hint_label.setToolTip(tool.hint)
         self.canvas.setFocus()
 
     def tell(self, text: str, kind: str = "error") -> None:

@@ -1,5 +1,7 @@
 """The canvas: shows the session's document and hands the pointer and keys to the active tool."""
 
+from collections.abc import Callable
+
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QPointF, QSizeF, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent, QPaintEvent, QResizeEvent, QWheelEvent
@@ -60,6 +62,8 @@ class Canvas(pg.GraphicsView):
         self.marked: tuple[tuple[float, float], str] | None = None
         self.thinner = Thinner()
         self.references = ReferencePictures(self)
+        self.key_of: Callable[[str], str] = lambda _: ""
+        self.space_plays = True
         self._content: Content | None = None
         self._pin_marks: tuple[Content, tuple[PinMark, ...]] | None = None
         self._follows_stage = True
@@ -311,7 +315,7 @@ class Canvas(pg.GraphicsView):
         if event.key() == Qt.Key.Key_Space and not event.isAutoRepeat():
             self._space_down = False
             self._reset_cursor()
-            if not self._space_used:
+            if self.space_plays and not self._space_used:
                 self.playPressed.emit()
         event.accept()
 

@@ -271,8 +271,27 @@ class LabelsItem(CanvasItem):
         if content.before is None and content.after is None and not self._busy():
             rect = camera.transform().mapRect(content.papers[0].rect(stage))
             painter.setPen(self.canvas.theme.color("muted"))
-            text = "Press P and click the corners of your first drawing,\nor press B and draw it freehand."
-            painter.drawText(rect, int(Qt.AlignmentFlag.AlignCenter), text)
+            painter.drawText(rect, int(Qt.AlignmentFlag.AlignCenter), self._advice())
+        elif len(self.canvas.session.layer.keyframes) == 1 and not self._busy():
+            rect = camera.transform().mapRect(content.papers[0].rect(stage)).adjusted(0, 0, 0, -14)
+            place = Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignBottom
+            painter.setPen(self.canvas.theme.color("muted"))
+            painter.drawText(rect, int(place), self._second_advice(content))
+
+    def _advice(self) -> str:
+        """Say how a first drawing is made, with the keys as they are now."""
+        pen, pencil = (self.canvas.key_of(f"tool.{tool}") for tool in ("pen", "pencil"))
+        by_pen = f"Press {pen} and click" if pen else "Take the pen and click"
+        by_pencil = f"press {pencil} and draw" if pencil else "take the pencil and draw"
+        return f"{by_pen} the corners of your first drawing,\nor {by_pencil} it freehand."
+
+    def _second_advice(self, content: Content) -> str:
+        """Say how one keyframe becomes a span."""
+        if content.frame != self.canvas.session.layer.keyframes[0].frame:
+            return "Now draw it as it is here: the drawings between come by themselves."
+        last = self.canvas.key_of("play.last")
+        there = f"press {last} for the last frame" if last else "drag the playhead"
+        return f"Go to another frame ({there}) and draw the second keyframe."
 
     def _busy(self) -> bool:
         return self.canvas.tool is not None and self.canvas.tool.busy

@@ -39,8 +39,8 @@ class Tool:
 
     name = ""
     icon = ""
-    shortcut = ""
     hint = ""
+    held: tuple[tuple[str, str], ...] = ()  # what holding Shift, Alt or Ctrl does
     cursor = Qt.CursorShape.ArrowCursor
     shows_vertices = False
     shows_anchors = False

@@ -91,7 +91,7 @@ class SpanPanel(QWidget):
         self.lines.chosen.connect(lambda value: self.view_state.set(lines=value))
         self.correspondence_section.box.addWidget(self.lines)
         row = QHBoxLayout()
-        self.add = flat_button("Add anchors (C)", "Take the correspond tool: drag from outline to outline")
+        self.add = flat_button("Add anchors", "Take the correspond tool: drag from outline to outline")
         self.add.clicked.connect(actions["tool.correspond"].trigger)
         self.clear = flat_button("Clear anchors", "Forget every pair that you fixed in this span")
         self.clear.clicked.connect(self._on_clear)
@@ -144,9 +144,9 @@ class SpanPanel(QWidget):
     def _advice(self) -> str:
         count = len(self.session.layer.keyframes)
         if count == 0:
-            return "Draw the first keyframe: pen (P) or pencil (B)."
+            return "Draw the first keyframe: take the pen or the pencil."
         if count == 1:
-            return "One keyframe so far. Go to another frame and draw the second one, or press F6 for a copy."
+            return "One keyframe so far. Go to another frame and draw the second one, or add a copy there."
         return "The playhead stands outside the keyframes."
 
     def _frame(self) -> int | None:

@@ -33,11 +33,12 @@ class _Drag:
 
 
 class CorrespondTool(Tool):
-    name, icon, shortcut = "Correspond", "correspond", "C"
+    name, icon = "Correspond", "correspond"
     hint = (
-        "Correspond: drag from outline to outline, or an end along its outline. Shift: no snapping. "
+        "Drag from outline to outline, or an end along its outline. "
         "Double click a line: anchor it. Delete: take away. M: mute."
     )
+    held = (("Shift", "no snapping"),)
     cursor = Qt.CursorShape.PointingHandCursor
     shows_vertices = True
     shows_anchors = True

@@ -14,11 +14,12 @@ CLOSE_REACH = 10.0
 
 
 class PenTool(Tool):
-    name, icon, shortcut = "Pen", "pen", "P"
+    name, icon = "Pen", "pen"
     hint = (
-        "Pen: click the vertices; click the first one or press Enter to close. "
-        "Shift: steps of 45°. Backspace: take the last back. Shift+Enter: leave open. Escape: give up."
+        "Click the vertices; click the first one or press Enter to close. "
+        "Backspace: take the last back. Escape: give up."
     )
+    held = (("Shift", "steps of 45°; with Enter: leave open"),)
     cursor = Qt.CursorShape.CrossCursor
 
     def __init__(self, canvas) -> None:

@@ -15,8 +15,9 @@ SMALLEST_DRAWING = 4.0
 
 
 class PencilTool(Tool):
-    name, icon, shortcut = "Pencil", "pencil", "B"
-    hint = "Pencil: draw with the button down; the outline closes on release. Alt: leave it open. Escape: give up."
+    name, icon = "Pencil", "pencil"
+    hint = "Draw with the button down; the outline closes on release. Escape: give up."
+    held = (("Alt", "leave it open"),)
     cursor = Qt.CursorShape.CrossCursor
 
     def __init__(self, canvas) -> None:

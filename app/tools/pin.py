@@ -33,11 +33,12 @@ class _Drag:
 
 
 class PinTool(Tool):
-    name, icon, shortcut = "Pin", "pin", "K"
+    name, icon = "Pin", "pin"
     hint = (
-        "Pin: click a point of the drawing before; drag a pin, its path or its squares to bend the arc. "
-        "Alt: move the pin. Shift: no snapping. Double click: straight again. Delete: take away."
+        "Click a point of the drawing before; drag a pin, its path or its squares to bend the arc. "
+        "Double click: straight again. Delete: take away."
     )
+    held = (("Shift", "no snapping"), ("Alt", "move the pin"))
     cursor = Qt.CursorShape.CrossCursor
     shows_vertices = True
     shows_pins = True

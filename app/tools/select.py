@@ -57,11 +57,9 @@ class _Press:
 
 
 class SelectTool(Tool):
-    name, icon, shortcut = "Select", "select", "V"
-    hint = (
-        "Select: drag vertices or whole shapes; drag over empty paper for a box. Shift: add. "
-        "Double click an edge: new vertex. Arrows: nudge (Shift: 10 px). Delete: take away."
-    )
+    name, icon = "Select", "select"
+    hint = "Drag vertices, shapes or a box. Double click an edge: new vertex. Arrows: nudge. Delete: take away."
+    held = (("Shift", "add; straight; nudge 10 px"), ("Alt", "about the middle"))
     shows_vertices = True
 
     def __init__(self, canvas) -> None:
