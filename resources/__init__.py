@@ -3,7 +3,7 @@
 from importlib.resources import files
 from pathlib import Path
 
-DEMO = "bending arm"
+DEMO = "walk"
 """The sample that the program opens to show itself."""
 
 

@@ -3,6 +3,7 @@ import importlib.util
 import re
 import subprocess
 import sys
+from itertools import pairwise
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -12,11 +13,22 @@ from shapely.geometry import LinearRing, Polygon
 
 import resources
 from core.io.project import load
+from core.model.checking import certify_span
 from core.model.inbetweens import plan_span
-from core.model.motion import PlanCache, pictures_at
+from core.model.motion import PlanCache, picture_at, pictures_at
+from core.model.timing import exposures_of
 
 ROOT = Path(__file__).resolve().parent.parent
-NAMES = ("bending arm", "bird wing", "letter", "square to diamond", "walking leg")
+NAMES = (
+    "walk",
+    "bending arm",
+    "bird wing",
+    "bouncing ball",
+    "letter",
+    "square to diamond",
+    "turning letter",
+    "walking leg",
+)
 ICONS = sorted(p.stem for p in resources.folder().joinpath("icons").glob("*.svg"))
 SHAPES = {"path", "circle", "rect"}
 
@@ -48,8 +60,7 @@ def test_the_samples_are_what_the_script_draws(script, tmp_path):
 def test_every_frame_of_a_sample_is_simple_and_on_the_stage(name):
     document, plans = sample(name), PlanCache()
     for frame in range(1, document.length + 1):
-        (picture,) = pictures_at(document, frame, plans)
-        for points, closed in picture.outlines:
+        for points, closed in (o for p in pictures_at(document, frame, plans) for o in p.outlines):
             assert closed
             assert LinearRing(points).is_simple, (name, frame)
             assert (points >= 0).all(), (name, frame)
@@ -58,8 +69,8 @@ def test_every_frame_of_a_sample_is_simple_and_on_the_stage(name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_no_inbetween_of_a_sample_shrinks_or_swells_beyond_its_keyframes(name):
-    layer = sample(name).layers[0]
-    for before, after in zip(layer.keyframes, layer.keyframes[1:], strict=False):
+    spans = [x for layer in sample(name).layers for x in pairwise(layer.keyframes) if layer.name != "shadow"]
+    for before, after in (x for x in spans if x[1].frame - x[0].frame > 1):
         plan = plan_span(before.drawing, after.drawing, before.span)
         for frames in plan.frames(np.linspace(0, 1, 9)):
             areas = [Polygon(points).area for points in frames]
@@ -67,10 +78,75 @@ def test_no_inbetween_of_a_sample_shrinks_or_swells_beyond_its_keyframes(name):
             assert max(areas) < 1.07 * max(areas[0], areas[-1])
 
 
-@pytest.mark.parametrize("name", ["bending arm", "bird wing"])
+@pytest.mark.parametrize("name", ["bending arm", "bird wing", "walk"])
 def test_a_sample_that_loops_ends_as_it_begins(name):
-    keyframes = sample(name).layers[0].keyframes
-    assert keyframes[-1].drawing == keyframes[0].drawing
+    for layer in sample(name).layers:
+        assert layer.keyframes[-1].drawing == layer.keyframes[0].drawing
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_certificate_finds_neither_error_nor_warning_in_a_sample(name):
+    document, plans = sample(name), PlanCache()
+    for layer in document.layers:
+        for before, after in pairwise(layer.keyframes):
+            certificate = certify_span(plans.motions.of(document, layer, before, after)).certificate
+            assert [p for p in certificate.problems if p.severity != "info"] == [], (layer.name, before.frame)
+
+
+def test_the_walk_is_drawn_on_twos_and_its_arms_go_with_the_body():
+    document, plans = sample("walk"), PlanCache()
+    body = next(x for x in document.layers if x.name == "body")
+    for layer in document.layers:
+        shown = exposures_of(layer, 1, document.length - 1)
+        assert {e.count for e in shown} == {2}
+        assert layer.parent == (body.id if layer.name.endswith("arm") else None)
+    places = {
+        frame: {x.name: picture_at(document, x, frame, plans).outlines[0][0] for x in document.layers}
+        for frame in range(1, document.length)
+    }
+    for odd in range(1, document.length, 2):
+        for name, points in places[odd].items():
+            held = places[odd + 1][name]
+            assert Polygon(points).symmetric_difference(Polygon(held)).area < 1e-6 * Polygon(points).area
+    # the top of the arm stays at the shoulder, however the body bobs
+    gaps = [p["near arm"][:, 1].min() - p["body"][:, 1].min() for p in places.values()]
+    assert max(gaps) - min(gaps) < 12
+
+
+def test_a_standing_foot_of_the_walk_goes_back_evenly_on_the_floor():
+    document, plans = sample("walk"), PlanCache()
+    leg = next(x for x in document.layers if x.name == "near leg")
+    backs, lows = [], []
+    for frame in (5, 7, 9, 11):  # it stands flat from the second phase to the third, and a little longer
+        points = picture_at(document, leg, frame, plans).outlines[0][0]
+        sole = points[points[:, 1] > points[:, 1].max() - 8]
+        backs.append(sole[:, 0].mean())
+        lows.append(points[:, 1].max())
+    steps = np.diff(backs)
+    assert (steps < 0).all()
+    assert np.ptp(steps) < 0.25 * abs(steps.mean())
+    assert np.ptp(lows) < 6
+
+
+def test_the_ball_falls_ever_faster_hits_the_floor_and_keeps_its_area():
+    document, plans = sample("bouncing ball"), PlanCache()
+    ball = next(x for x in document.layers if x.name == "ball")
+    shapes = [picture_at(document, ball, f, plans).outlines[0][0] for f in range(1, document.length + 1)]
+    areas = np.array([Polygon(p).area for p in shapes])
+    assert areas.max() / areas.min() < 1.06
+    low = np.array([p[:, 1].max() for p in shapes])
+    fall = np.diff(low[:11])  # from the first apex to the ground
+    assert (np.diff(fall) > -0.5).all()
+    assert fall[-1] > 10 * fall[0]
+    for contact in (11, 29, 43, 53):
+        assert low[contact - 1] == low[contact - 4 : contact + 3].max() == pytest.approx(930, abs=0.5)
+
+
+def test_the_turning_letter_takes_its_hole_along():
+    document, plans = sample("turning letter"), PlanCache()
+    for frame in range(1, document.length + 1):
+        (outer, _), (hole, _) = pictures_at(document, frame, plans)[0].outlines
+        assert Polygon(outer).contains(Polygon(hole)), frame
 
 
 def test_the_walking_foot_stands_while_it_bears_the_body():
