@@ -27,7 +27,6 @@ from app.theme import icon, palette, system_theme
 from app.view import LINES, ViewState
 from app.window import Window
 from core.model.edits import clear_anchors, clear_pins, set_stage, solve_again
-from core.model.motion import PlanCache
 
 ARRANGEMENT_ACTIONS = {"overlaid": "view.overlaid", "side by side": "view.side", "compare": "view.compare"}
 THEME_ACTIONS = {"system": "view.theme_system", "light": "view.theme_light", "dark": "view.theme_dark"}
@@ -59,7 +58,6 @@ class Editor(QObject):
         self.view_state = ViewState(self.settings, self)
         self.playback = Playback(self.session, self)
         self.clipboard = Clipboard()
-        self.plans = PlanCache()
         theme = system_theme(self.settings.text("theme", "system"))
         self.ranked = AlternativesPreview(self.preview, self)
         self.certificates = CertificatePreview(self.session, self.preview, self)
@@ -154,7 +152,7 @@ class Editor(QObject):
     def _key_runs(self):
         session, playback = self.session, self.playback
         runs = {
-            "key.add": lambda: editing.add_keyframe(session, self.plans),
+            "key.add": lambda: editing.add_keyframe(session, self.preview.motions),
             "key.copy": lambda: editing.copy_to_other_keyframe(session),
             "key.delete": lambda: editing.delete_current_keyframe(session),
             "span.clear": self._clear_anchors,
