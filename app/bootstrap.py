@@ -20,6 +20,7 @@ from app.incoming import Incoming
 from app.playback import Playback
 from app.preview.alternatives import AlternativesPreview
 from app.preview.certificates import CertificatePreview
+from app.preview.prefetch import Prefetch
 from app.preview.spans import SpanPreview
 from app.session import Selection, Session
 from app.settings import Settings
@@ -61,6 +62,7 @@ class Editor(QObject):
         theme = system_theme(self.settings.text("theme", "system"))
         self.ranked = AlternativesPreview(self.preview, self)
         self.certificates = CertificatePreview(self.session, self.preview, self)
+        self.prefetch = Prefetch(self.session, self.preview, self)
         self.window = Window(
             self.session,
             self.preview,
@@ -351,6 +353,7 @@ class Editor(QObject):
             self.export_dialog.close()
         self.incoming.stop()
         self.playback.stop()
+        self.prefetch.stop()
         self.preview.stop()
         self.ranked.stop()
         self.certificates.stop()
