@@ -20,6 +20,9 @@ LONGEST = 100_000
 FASTEST = 1000
 MOST_TURNS = 100
 MOST_PINS = 200
+PLACEMENTS = ("still", "centroid")
+"""Where an in-between lies: what hardly moves stays still, or the centroid goes straight."""
+
 LONGEST_NAME = 1000
 AUTO = "auto"
 """Not a method of its own: the better one of rigid and intrinsic."""
@@ -121,6 +124,8 @@ class Span:
         are ignored.
     pins : tuple of SpanPin
         Points whose way the artist has drawn, in the order they were made.
+    placement : str
+        One of PLACEMENTS; without effect where pins decide.
     """
 
     method: str = AUTO
@@ -129,6 +134,7 @@ class Span:
     pairs: tuple[OutlinePair, ...] = ()
     repair: bool = False
     pins: tuple[SpanPin, ...] = ()
+    placement: str = PLACEMENTS[0]
 
     def __post_init__(self) -> None:
         if self.method not in (*METHODS, AUTO):
@@ -137,6 +143,8 @@ class Span:
             raise DocumentError(f"{self.turns} extra turns; the limit is {MOST_TURNS}")
         if len(self.pins) > MOST_PINS:
             raise DocumentError(f"{len(self.pins)} pins in one span; the limit is {MOST_PINS}")
+        if self.placement not in PLACEMENTS:
+            raise DocumentError(f"unknown placement {self.placement!r}; known are {', '.join(PLACEMENTS)}")
         for side in ("before", "after"):
             ids = [getattr(p, side) for p in self.pairs]
             if len(set(ids)) < len(ids):

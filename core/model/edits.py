@@ -271,6 +271,7 @@ def set_span(
     easing: Easing | None = None,
     turns: int | None = None,
     repair: bool | None = None,
+    placement: str | None = None,
 ) -> Document:
     """Change how the span that begins at `frame` moves."""
     layer = document.layer(layer_id)
@@ -282,6 +283,7 @@ def set_span(
         easing=span.easing if easing is None else easing,
         turns=span.turns if turns is None else turns,
         repair=span.repair if repair is None else repair,
+        placement=span.placement if placement is None else placement,
     )
     return document if changed == span else with_keyframe(document, layer, replace(keyframe, span=changed))
 

@@ -181,7 +181,14 @@ def plan_span(
     pairs = [link.aligned for link in links]
     pins = planned_pins(span.pins, [_for_pins(link, before) for link in links]) if span.pins else ()
     paths = solve_paths(
-        pairs, span.method, span.turns, pins=pins, repair=span.repair, progress=progress, cancelled=cancelled
+        pairs,
+        span.method,
+        span.turns,
+        pins=pins,
+        placement=span.placement,
+        repair=span.repair,
+        progress=progress,
+        cancelled=cancelled,
     )
     return SpanPlan(tuple(links), paths, (before.style, after.style))
 

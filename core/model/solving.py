@@ -68,6 +68,7 @@ def solve_paths(
     turns: int,
     *,
     pins: Sequence[Pin] = (),
+    placement: str = "still",
     repair: bool = False,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
@@ -84,15 +85,17 @@ def solve_paths(
         Extra whole turns.
     pins : sequence of Pin
         Points whose way is given.
+    placement : str
+        One of `PLACEMENTS`.
     repair : bool
         Whether crossings are bent away; may take seconds.
     progress, cancelled
         Of the repair, as of `core.repair.plan.repair_drawing`.
     """
     if method == AUTO:
-        paths = _best(pairs, turns, pins)
+        paths = _best(pairs, turns, pins, placement)
     else:
-        plan = plan_drawing(pairs, method=method, turns=turns, pins=pins)
+        plan = plan_drawing(pairs, method=method, turns=turns, pins=pins, placement=placement)
         paths = Paths(plan, method, notes=(plan.note,) if plan.note else ())
     if not repair or not isinstance(paths.plan, DrawingPlan):
         return paths
@@ -112,9 +115,9 @@ def _moved_pins(repaired: RepairedDrawingPlan) -> tuple[str, ...]:
     return (f"the repair moved a pinned point by up to {off:.1f} px",) if off > SEEN * size else ()
 
 
-def _best(pairs: Sequence[AlignedPair], turns: int, pins: Sequence[Pin]) -> Paths:
+def _best(pairs: Sequence[AlignedPair], turns: int, pins: Sequence[Pin], placement: str) -> Paths:
     """Look at both methods' in-betweens, and take the one with fewer and lesser problems, then less stretch."""
-    plans = [plan_drawing(pairs, method=m, turns=turns, pins=pins) for m in CANDIDATES]
+    plans = [plan_drawing(pairs, method=m, turns=turns, pins=pins, placement=placement) for m in CANDIDATES]
     if plans[0].note.startswith("fell back"):  # there is nothing to choose from
         reason = f"auto chose intrinsic: {plans[0].note}"
         return Paths(plans[1], "intrinsic", reason)
