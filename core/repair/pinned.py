@@ -42,6 +42,12 @@ class Grip:
         own_held = Held(weights[own], (held.corners[own] - origin) / scale, held.lengths[own])
         return cls(own_held, _freedom(own_held.wanted(LOOKS)))
 
+    @property
+    def attempts(self) -> tuple[FloatArray | None, ...]:
+        """Weights to hold while a way is looked for; None, if that fails: bringing the way onto them is enough."""
+        safe = self.freedom == len(self.held.weights) < 3
+        return (self.held.weights, None) if safe else (self.held.weights,)
+
     def onto(self, places: ComplexArray, times: FloatArray) -> ComplexArray:
         """Return the places (T, n), which should all but meet the pins, with all pins where they are wanted."""
         wanted = self.held.wanted(times)

@@ -199,18 +199,18 @@ def _course(plan: DrawingPlan, parts: tuple[int, ...], watch: "_Watch") -> tuple
     chains = replace(chains, keyframes=ends + moves)
     mass, springs = chains.stiffness(before, after)
     grip = _grip(plan, parts, origin, scale)
-    held = None if grip is None else grip.held.weights
-    field = Field(chains, Barrier(before, after), mass, springs, watch.check, held)
     sketches = tuple(_sketch(pairs, method, steps, grip) for method, steps in (("intrinsic", 16), ("linear", 10)))
-    found = route(field, path, sketches, watch.tell)
-    if not found.whole:
-        return None, (NO_WAY if grip is None else NO_WAY_WITH_PINS,)
-    if not found.bent and not moves.any():
-        return None, ()
-    course = Course(found, path, ends, bool(moves.any()), origin, scale, grip)
-    if grip is None or _pins_met(course, chains):
-        return course, ()
-    return None, (NO_WAY_WITH_PINS,)
+    tell = watch.tell
+    for held in (None,) if grip is None else grip.attempts:
+        field = Field(chains, Barrier(before, after), mass, springs, watch.check, held)
+        found = route(field, path, sketches, tell)
+        tell = watch.keep  # progress never falls back
+        if found.whole and not found.bent and not moves.any():
+            return None, ()
+        course = Course(found, path, ends, bool(moves.any()), origin, scale, grip)
+        if found.whole and (grip is None or _pins_met(course, chains)):
+            return course, ()
+    return None, (NO_WAY if grip is None else NO_WAY_WITH_PINS,)
 
 
 def _grip(plan: DrawingPlan, parts: tuple[int, ...], origin: complex, scale: float) -> Grip | None:
@@ -293,6 +293,9 @@ class _Watch:
     def check(self) -> None:
         if self.cancelled is not None and self.cancelled():
             raise CancelledError("the repair was cancelled")
+
+    def keep(self, share: float) -> None:
+        self.check()
 
     def tell(self, share: float) -> None:
         self.check()
