@@ -96,7 +96,7 @@ class _PlanTask:
     @property
     def key(self) -> tuple[object, ...]:
         drawings, s = (id(self.before.drawing), id(self.after.drawing)), self.span
-        return *drawings, s.method, s.turns, s.repair, s.pins, *(id(x) for x in self.solved)
+        return *drawings, s.method, s.turns, s.repair, s.pins, s.placement, *(id(x) for x in self.solved)
 
     def likeness(self) -> tuple[object, ...]:
         """Equal for plans that take about as long."""
@@ -139,6 +139,7 @@ class SpanPreview(QObject):
         self._pairs: OrderedDict[object, tuple[object, Pairs]] = OrderedDict()
         self._wanted: OrderedDict[object, _Task] = OrderedDict()
         self._trial: tuple[PairRef, Correspondence] | None = None
+        self._tried: tuple[Keyframe, str] | None = None
         self._coarse: tuple[_Solved, bool, _Solved] | None = None
         self._worker = NewestWins(self)
         self._worker.finished.connect(self._on_solved)
@@ -166,7 +167,8 @@ class SpanPreview(QObject):
         While a slow one (rigid, auto, a repair) is being solved, it is intrinsic's, or that of the method without
         the repair; `waiting` tells.
         """
-        span = before.span if method is None else replace(before.span, method=method)
+        named = method or self.tried_method(before)
+        span = before.span if named is None else replace(before.span, method=named)
         wanted = self._wanted_plan(before, after, span)
         found = self._plans.get(wanted.key)
         if found is None and self._is_quick(wanted):
@@ -229,10 +231,21 @@ class SpanPreview(QObject):
             self._trial = trial
             self.planned.emit()
 
+    def try_method(self, before: Keyframe | None, method: str = "") -> None:
+        """Show a span's in-betweens by another method for a while, or, without a keyframe, by its own again."""
+        tried = (before, method) if before is not None and method != before.span.method else None
+        if tried != self._tried:
+            self._tried = tried
+            self.planned.emit()
+
+    def tried_method(self, before: Keyframe) -> str | None:
+        """Return the method that the span beginning here is shown by for a while, if it is not its own."""
+        return self._tried[1] if self._tried is not None and self._tried[0] is before else None
+
     @property
     def trying(self) -> bool:
-        """Whether another correspondence is shown for a while."""
-        return self._trial is not None
+        """Whether another correspondence or method is shown for a while."""
+        return self._trial is not None or self._tried is not None
 
     def with_answers(self, document: Document) -> Document:
         """Return the document with every answer of the solver that is known stored in its spans.

@@ -10,7 +10,7 @@ from core.correspondence.drawings import pair_outlines
 from core.correspondence.matching import match
 from core.correspondence.pairing import Correspondence
 from core.geometry.outline import FloatArray, locate, points_at
-from core.methods.plan import AlignedPair
+from core.methods.plan import AlignedPair, turn_of
 from core.model.color import mix_colors
 from core.model.document import Document, Keyframe, Layer, Span, ratio_in_span
 from core.model.drawing import Drawing, Outline, Style
@@ -94,6 +94,11 @@ class SpanPlan:
     links: tuple[Link, ...]
     paths: Paths
     styles: tuple[Style, Style]
+
+    @property
+    def natural_turn(self) -> float:
+        """The turn of the drawing as a whole without extra turns, radians; see `core.methods.plan.turn_of`."""
+        return turn_of([link.aligned for link in self.links])
 
     def picture(self, t: float) -> Picture:
         """Return the in-between at the eased t (0 and 1 give the keyframes' shapes)."""
