@@ -112,7 +112,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Stretch Heat Map",
         ("Shift+H",),
         checkable=True,
-        tip="Colour the in-between where it is longer or shorter than its keyframes",
+        tip="Colour the in-between where it is longer or shorter than its keyframes, inside and outline",
     ),
     ActionSpec(
         "view.paths",

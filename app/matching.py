@@ -48,7 +48,7 @@ def turn_other_way(session: Session, preview: SpanPreview) -> None:
 
 
 def try_methods_in(menu: QMenu, methods: dict[str, str], session: Session, preview: SpanPreview) -> None:
-    """Show the in-betweens by the method under the pointer in the menu; `methods` are by the name of the action."""
+    """Show the in-betweens by the method under the pointer in a menu; `methods` are by the name of the action."""
 
     def hovered(action: QAction) -> None:
         before, after = session.span_keyframes()

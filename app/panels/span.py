@@ -17,7 +17,11 @@ METHODS = (
     ("auto", "auto", "The better of rigid and intrinsic, by their certificates"),
 )
 PLACEMENTS = (
-    ("still", "still parts stay", "What hardly moves between the keyframes stays where it is: a foot does not slide"),
+    (
+        "still",
+        "still parts stay",
+        "What hardly moves between the keyframes stays where it is: a foot does not slide",
+    ),
     ("centroid", "centroid straight", "The middle of the area goes straight, as that of a thrown thing does"),
 )
 LINES = (
