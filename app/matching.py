@@ -43,7 +43,7 @@ def turn_other_way(session: Session, preview: SpanPreview) -> None:
     if before.span.method == "linear":
         session.problem.emit("Linear goes straight and turns no way round: choose another method first.")
         return
-    turns = other_way(before.span.turns, preview.plan(before, after).natural_turn)
+    turns = other_way(before.span.turns, preview.plan(before, after, session.layer.id).natural_turn)
     session.apply("Turn the Other Way", set_span, session.layer.id, before.frame, turns=turns)
 
 
@@ -53,7 +53,7 @@ def try_methods_in(menu: QMenu, methods: dict[str, str], session: Session, previ
     def hovered(action: QAction) -> None:
         before, after = session.span_keyframes()
         method = methods.get(action.objectName(), "")
-        preview.try_method(before if method and after is not None else None, method)
+        preview.try_method(before if method and after is not None else None, session.layer.id, method)
 
     menu.hovered.connect(hovered)
     menu.aboutToHide.connect(lambda: preview.try_method(None))
@@ -71,7 +71,7 @@ def _main(session: Session, preview: SpanPreview) -> tuple[int, Outline, Outline
     if made is not None and made.held:
         session.problem.emit("Anchors hold the start and the direction: move, mute or delete them instead.")
         return None
-    return before.frame, a, b, preview.correspondence(before, after, (a.id, b.id))
+    return before.frame, a, b, preview.correspondence(before, after, session.layer.id, (a.id, b.id))
 
 
 def _choose(session: Session, label: str, frame: int, a: Outline, b: Outline, c: Correspondence) -> None:

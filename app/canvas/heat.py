@@ -24,8 +24,8 @@ MOST = 1.0
 """Doublings, or halvings, from which on the colour is the strongest."""
 
 CELLS = 56
-"""Of the picture of the inside, along its longer side; the painter smooths it. With the margin 63: products of such
-matrices are made in one thread, which a frame need not wait for."""
+"""Of the picture of the inside, along its longer side; the painter smooths it. With the margin 63: products of
+such matrices are made in one thread, which a frame need not wait for."""
 
 MARGIN = 3
 """Cells round the outline, so that no colour comes in from the other side."""
@@ -111,8 +111,8 @@ def heat_picture(
 ) -> tuple[QImage, FloatArray, float]:
     """Paint the stretch of triangles as smooth colours.
 
-    Every triangle's stretch is laid on the cell of its middle, by its area, and evened out over those round it: one
-    small picture is drawn much faster than a thousand triangles, and shows no seams.
+    Every triangle's stretch is laid on the cell of its middle, by its area, and evened out over those round it:
+    one small picture is drawn much faster than a thousand triangles, and shows no seams.
     """
     low, high = places.min(axis=0), places.max(axis=0)
     cell = max(float((high - low).max()), 1e-9) / CELLS

@@ -134,7 +134,7 @@ class SpanPanel(QWidget):
             widget.setEnabled(there)
         self.lines.set_value(self.view_state.options.lines)
         self.compare.setChecked(self.view_state.options.arrangement == "compare")
-        repairing = there and before.span.repair and self.preview.waiting(before)
+        repairing = there and before.span.repair and self.preview.waiting(before, self.session.layer.id)
         self.progress.setVisible(repairing)
         self.stop.setVisible(repairing)
         if not there or before is None or after is None:
@@ -163,9 +163,9 @@ class SpanPanel(QWidget):
     def _about(self, before: Keyframe, after: Keyframe) -> str:
         """Say what the method does; of auto what it chose, and what did not go as asked."""
         span = before.span
-        method = self.preview.tried_method(before) or span.method
-        plan = self.preview.plan(before, after)
-        if self.preview.waiting(before):
+        method = self.preview.tried_method(before, self.session.layer.id) or span.method
+        plan = self.preview.plan(before, after, self.session.layer.id)
+        if self.preview.waiting(before, self.session.layer.id):
             what = "the repair" if span.repair else method
             return f"Solving {what}; until then {plan.paths.method} is shown."
         tip = next(tip for value, _, tip in METHODS if value == method)
@@ -193,7 +193,7 @@ class SpanPanel(QWidget):
         self._pointed = method
         before, after = self.session.span_keyframes()
         there = method and before is not None and after is not None and not self.session.in_gesture
-        self.preview.try_method(before if there else None, method)
+        self.preview.try_method(before if there else None, self.session.layer.id, method)
 
     def _on_placement(self, placement: str) -> None:
         frame = self._frame()
