@@ -112,7 +112,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Stretch Heat Map",
         ("Shift+H",),
         checkable=True,
-        tip="Colour the in-between where it is longer or shorter than its keyframes",
+        tip="Colour the in-between where it is longer or shorter than its keyframes, inside and outline",
     ),
     ActionSpec(
         "view.paths",
@@ -175,6 +175,14 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("span.intrinsic", "Span", "Intrinsic", (), "", checkable=True, group="method"),
     ActionSpec("span.rigid", "Span", "Rigid", (), "", checkable=True, group="method"),
     ActionSpec("span.auto", "Span", "Auto", (), "", checkable=True, group="method"),
+    ActionSpec(
+        "span.other_way",
+        "Span",
+        "Turn the Other Way Round",
+        (),
+        "",
+        tip="Go round the other side, left in place of right; again: back. Not for linear",
+    ),
     _line("Span"),
     ActionSpec("span.clear", "Span", "Clear Anchors"),
     ActionSpec("span.clear_pins", "Span", "Clear Pins"),

@@ -32,6 +32,7 @@ from core.model.edits import clear_anchors, clear_pins, set_stage, solve_again
 ARRANGEMENT_ACTIONS = {"overlaid": "view.overlaid", "side by side": "view.side", "compare": "view.compare"}
 THEME_ACTIONS = {"system": "view.theme_system", "light": "view.theme_light", "dark": "view.theme_dark"}
 SPAN_ACTIONS = (
+    "span.other_way",
     "span.clear",
     "span.clear_pins",
     "span.again",
@@ -157,6 +158,7 @@ class Editor(QObject):
             "key.add": lambda: editing.add_keyframe(session, self.preview.motions),
             "key.copy": lambda: editing.copy_to_other_keyframe(session),
             "key.delete": lambda: editing.delete_current_keyframe(session),
+            "span.other_way": lambda: matching.turn_other_way(session, self.preview),
             "span.clear": self._clear_anchors,
             "span.clear_pins": self._clear_pins,
             "span.again": self._solve_again,
@@ -213,6 +215,8 @@ class Editor(QObject):
         session.undo_stack.indexChanged.connect(self._refresh)
         self.playback.changed.connect(self._refresh)
         window.canvas.playPressed.connect(self.playback.toggle)
+        methods = {action: method for method, action in METHOD_ACTIONS.items()}
+        matching.try_methods_in(window.menus["Span"], methods, session, self.preview)
         window.timeline.track.menuWanted.connect(self._show_key_menu)
         window.closeAsked.connect(self._on_close_asked)
         window.fileDropped.connect(lambda name: self.incoming.take(Path(name), self.files.open_path))

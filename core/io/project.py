@@ -18,10 +18,10 @@ import numpy as np
 
 from core.correspondence.pairing import Correspondence, ordered_anchors
 from core.errors import FileFormatError, InkbetweenError, StorageError
+from core.methods.placement import PLACEMENTS
 from core.model.document import (
     LONGEST_NAME,
     LONGEST_PATH,
-    PLACEMENTS,
     Anchor,
     Document,
     Keyframe,
