@@ -4,11 +4,8 @@ What each field means is in docs/file-format.md. The structs here are the file; 
 document. They are kept apart so that either can change without the other.
 """
 
-import contextlib
 import itertools
 import os
-import stat
-import tempfile
 from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Final, Literal
@@ -17,7 +14,8 @@ import msgspec
 import numpy as np
 
 from core.correspondence.pairing import Correspondence, ordered_anchors
-from core.errors import FileFormatError, InkbetweenError, StorageError
+from core.errors import FileFormatError, InkbetweenError
+from core.io.storage import Fingerprint, fingerprint, read_bounded, write_atomically
 from core.model.document import (
     LONGEST_NAME,
     LONGEST_PATH,
@@ -151,78 +149,32 @@ def load(path: str | os.PathLike[str]) -> Document:
         If it is no project, is damaged, or was written by a newer version; the message names the place.
     """
     file = Path(path)
-    try:
-        status = file.stat()
-        if not stat.S_ISREG(status.st_mode):
-            raise StorageError(f"cannot read {file}: it is no file")  # a device might never end
-        if status.st_size > LARGEST_FILE:
-            raise FileFormatError(f"{file.name} is larger than {LARGEST_FILE // 2**20} MB: no project of ours")
-        content = file.read_bytes()
-    except OSError as e:
-        raise StorageError(f"cannot read {file}: {_reason(e)}") from e
+    content = read_bounded(file, LARGEST_FILE)
     try:
         return decode(content)
     except FileFormatError as e:
         raise FileFormatError(f"cannot open {file.name}: {e}") from None
 
 
-def save(document: Document, path: str | os.PathLike[str]) -> None:
+def save(document: Document, path: str | os.PathLike[str], *, backup: bool = False) -> Fingerprint:
     """Write a project file: whole, or not at all.
 
     The bytes go to a temporary file in the same folder, are forced to the disk, and take the old file's place in
-    one step; until then the old file is untouched.
+    one step; until then the old file is untouched. With `backup` the old file stays as `backup_of(path)`.
+
+    Returns
+    -------
+    Fingerprint
+        Of what was written, to see later whether someone else has changed it.
 
     Raises
     ------
     StorageError
         If the folder cannot be written or the disk is full; the old file is as it was.
     """
-    write_atomically(Path(path), encode(document))
-
-
-def write_atomically(path: Path, content: bytes) -> None:
-    """Put `content` into `path` in one step; raises StorageError and leaves the old file if it cannot."""
-    temporary: Path | None = None
-    try:
-        target = path.resolve()  # a link stays a link, its target is replaced
-        mode = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()
-        handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:50]}.", suffix=".part")
-        temporary = Path(name)
-        with os.fdopen(handle, "wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        os.chmod(temporary, mode)
-        os.replace(temporary, target)
-    except (OSError, RuntimeError) as e:  # RuntimeError: a loop of links, before Python 3.13
-        raise StorageError(f"cannot write {path}: {_reason(e)}") from e
-    finally:
-        if temporary is not None:
-            with contextlib.suppress(OSError):
-                temporary.unlink(missing_ok=True)
-    _sync_folder(target.parent)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
-
-
-def _sync_folder(folder: Path) -> None:
-    """Make the renaming itself survive a power cut, where the system can; the file is whole either way."""
-    if os.name != "posix":
-        return
-    with contextlib.suppress(OSError):
-        handle = os.open(folder, os.O_RDONLY)
-        try:
-            os.fsync(handle)
-        finally:
-            os.close(handle)
-
-
-def _reason(error: OSError | RuntimeError) -> str:
-    return (getattr(error, "strerror", None) or str(error)).lower()
+    content = encode(document)
+    write_atomically(Path(path), content, backup=backup)
+    return fingerprint(Path(path), content)
 
 
 def encode(document: Document) -> bytes:
