@@ -329,18 +329,38 @@ class Session(QObject):
 
     def open(self, path: Path) -> None:
         """Open a file; raises InkbetweenError and keeps the open document if that fails."""
-        self._replace(with_absolute_references(load(path), path.parent), path, None)
+        self.opened(load(path), path)
+
+    def opened(self, document: Document, path: Path) -> None:
+        """Show a document that was read from a file."""
+        self._replace(with_absolute_references(document, path.parent), path, None)
+
+    def recovered(self, document: Document, path: Path | None, title: str) -> None:
+        """Show a document that was never saved like this, under the name it had."""
+        self._replace(document, path, title)
+        self.undo_stack.resetClean()
 
     def save(self, path: Path, completed: Document | None = None) -> None:
         """Write the document, or `completed`: the same one with the solver's answers stored in it.
 
         Raises StorageError and stays modified if that fails.
         """
+        self.settle()
+        save(with_relative_references(completed or self._document, path.parent), path)
+        self.saved(path, self._document)
+
+    def settle(self) -> None:
+        """End an open gesture as if the button had been released."""
         if self._gesture is not None:
             self._gesture.commit()
-        save(with_relative_references(completed or self._document, path.parent), path)
+
+    def saved(self, path: Path, document: Document) -> None:
+        """Take note that `document` is in a file now; what was changed meanwhile is still unsaved."""
         self.path, self.title = path, None
-        self.undo_stack.setClean()
+        if self._document is document:
+            self.undo_stack.setClean()
+        else:
+            self.undo_stack.resetClean()
         self.fileChanged.emit()
 
     def _replace(self, document: Document, path: Path | None, title: str | None) -> None:

@@ -18,8 +18,9 @@ class NewestWins(QObject):
 
     finished = Signal(object)
 
-    def __init__(self, parent: QObject | None = None) -> None:
+    def __init__(self, parent: QObject | None = None, name: str = "preview") -> None:
         super().__init__(parent)
+        self._name = name
         self._wake = threading.Condition()
         self._pending: Request | None = None
         self._running = False
@@ -39,7 +40,7 @@ class NewestWins(QObject):
                 return
             self._pending = request
             if self._thread is None:
-                self._thread = threading.Thread(target=self._loop, name="preview", daemon=True)
+                self._thread = threading.Thread(target=self._loop, name=self._name, daemon=True)
                 self._thread.start()
             self._wake.notify_all()
 

@@ -148,10 +148,16 @@ def load(path: str | os.PathLike[str]) -> Document:
     FileFormatError
         If it is no project, is damaged, or was written by a newer version; the message names the place.
     """
+    return load_seen(path)[0]
+
+
+def load_seen(path: str | os.PathLike[str]) -> tuple[Document, Fingerprint]:
+    """Read a project file as `load` does, and say by what it can be known again."""
     file = Path(path)
     content = read_bounded(file, LARGEST_FILE)
+    seen = fingerprint(file, content)
     try:
-        return decode(content)
+        return decode(content), seen
     except FileFormatError as e:
         raise FileFormatError(f"cannot open {file.name}: {e}") from None
 

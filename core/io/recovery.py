@@ -1,4 +1,4 @@
-"""The recovery file: a document with what is needed to offer it after a crash. One file, so it is whole or not there."""
+"""The recovery file: a document with what is needed to offer it after a crash, whole in one file."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -55,9 +55,16 @@ class _File(msgspec.Struct, forbid_unknown_fields=True):
 def encode_recovery(recovery: Recovery) -> bytes:
     """Return the bytes of a recovery file."""
     path = None if recovery.path is None else str(recovery.path)
+    if path is not None and _holds_half_characters(path):
+        path = None  # a name that no text can hold; the title still says which one it was
+    title = recovery.title.encode("utf-8", "replace").decode("utf-8")
     raw = msgspec.Raw(encode(recovery.document))
-    file = _File(FORMAT, VERSION, path, recovery.title, recovery.time, recovery.frame, raw)
+    file = _File(FORMAT, VERSION, path, title, recovery.time, recovery.frame, raw)
     return msgspec.json.encode(file)
+
+
+def _holds_half_characters(text: str) -> bool:
+    return any(0xD800 <= ord(c) <= 0xDFFF for c in text)
 
 
 def read_recovery(path: Path) -> Recovery:
