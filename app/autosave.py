@@ -5,7 +5,7 @@ import time
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QObject, Signal
 
 from app.preview.worker import NewestWins
 from app.recovery import Place, new_place
@@ -13,8 +13,11 @@ from app.session import Session
 from core.errors import InkbetweenError
 from core.io.recovery import Recovery
 
-WAIT_MS = 2000
-"""From a change to the writing of it; what is lost at most is this and the time of writing."""
+WAIT_S = 1.5
+"""From a change to the writing of it; what is lost at most is this and the time of writing.
+
+The worker waits, not a timer of the window: edits of a large drawing may keep the window busy for longer.
+"""
 
 
 class Autosave(QObject):
@@ -36,32 +39,22 @@ class Autosave(QObject):
         self._stopped = folder is None
         self._worker = NewestWins(self, name="autosave")
         self._worker.finished.connect(self._on_finished)
-        self._timer = QTimer(self)
-        self._timer.setSingleShot(True)
-        self._timer.setInterval(WAIT_MS)
-        self._timer.timeout.connect(self.keep)
-        session.documentChanged.connect(self._on_document_changed)
-        session.fileChanged.connect(self._on_file_changed)
+        session.documentChanged.connect(self._on_changed)
+        session.fileChanged.connect(self._on_changed)
 
     @property
     def place(self) -> Place | None:
         return self._place
 
-    def _on_document_changed(self) -> None:
-        if not self._stopped and not self._timer.isActive():
-            self._timer.start()
+    def _on_changed(self, _: object = None) -> None:
+        self.keep(WAIT_S)
 
-    def _on_file_changed(self) -> None:
-        if not self._session.is_modified and not self._session.in_gesture:
-            self.keep()
-
-    def keep(self) -> None:
-        """Write what is unsaved now, or take away what is saved, in the worker."""
-        self._timer.stop()
+    def keep(self, wait: float = 0.0) -> None:
+        """Write in the worker what is unsaved, after `wait` seconds at most, or take away what is saved."""
         if self._stopped:
             return
         if self._session.is_modified or self._session.in_gesture:
-            self._worker.submit(partial(self._write, self._snapshot()))
+            self._worker.submit(partial(self._write, self._snapshot()), wait)
         elif self._place is not None:
             self._worker.submit(self._place.clear)
 
@@ -89,7 +82,6 @@ class Autosave(QObject):
         if leave and (self._session.is_modified or self._session.in_gesture):
             self.keep_now()
         self._stopped = True
-        self._timer.stop()
         self._worker.stop()
         if self._place is not None:
             if leave:
