@@ -1,141 +1,26 @@
 """The project file, `.inkb`: UTF-8 JSON with a version, read strictly and written atomically.
 
-What each field means is in docs/file-format.md. The structs here are the file; the classes of core.model are the
-document. They are kept apart so that either can change without the other.
+What each field means is in docs/file-format.md. The structs of core.io.format are the file; the classes of
+core.model are the document. They are kept apart so that either can change without the other.
 """
 
-import itertools
 import os
-from fractions import Fraction
 from pathlib import Path
-from typing import Annotated, Final, Literal
+from typing import Final
 
 import msgspec
-import numpy as np
 
-from core.correspondence.pairing import Correspondence, ordered_anchors
-from core.errors import FileFormatError, InkbetweenError
+from core.errors import FileFormatError
+from core.io.format import FORMAT, LARGEST_FILE, MOST_OBJECTS, SUFFIX, VERSION, Head, ProjectFile
+from core.io.places import decoded
+from core.io.reading import from_file
 from core.io.storage import Fingerprint, fingerprint, read_bounded, write_atomically
-from core.model.document import (
-    LONGEST_NAME,
-    LONGEST_PATH,
-    Anchor,
-    Document,
-    Keyframe,
-    Layer,
-    OutlinePair,
-    Reference,
-    Span,
-    Stage,
-)
-from core.model.drawing import LARGEST_ID, Drawing, Outline, Style
-from core.model.easing import Easing
-from core.model.pins import SpanPin
+from core.io.writing import to_file
+from core.model.document import Document
 
-FORMAT: Final = "inkbetween"
-VERSION = 1
-SUFFIX = ".inkb"
-LARGEST_FILE = 512 * 1024 * 1024
+__all__ = ["LARGEST_FILE", "SUFFIX", "VERSION", "decode", "encode", "load", "load_seen", "save"]
 
-Number = float
-Point = tuple[Number, Number]
-Id = Annotated[int, msgspec.Meta(ge=1, le=LARGEST_ID)]
-Count = Annotated[int, msgspec.Meta(ge=2, le=LARGEST_ID)]
-
-
-class _Struct(msgspec.Struct, forbid_unknown_fields=True):
-    """A part of the file: unknown fields are errors."""
-
-
-class _Correspondence(_Struct):
-    before: Annotated[list[Number], msgspec.Meta(min_length=1)]
-    after: Annotated[list[Number], msgspec.Meta(min_length=1)]
-    counts: tuple[Count, Count]
-    closed: bool
-    flipped: bool
-
-
-class _Pair(_Struct, omit_defaults=True):
-    before: Id
-    after: Id
-    anchors: list[Point] = []
-    muted: list[int] = []
-    correspondence: _Correspondence | None = None
-    chosen: bool = False
-
-
-class _Pin(_Struct, omit_defaults=True):
-    outline: Id | None = None
-    position: Number | None = None
-    place: Point | None = None
-    handles: tuple[Point, Point] | None = None
-
-
-class _Span(_Struct, omit_defaults=True):
-    method: str
-    easing: tuple[Number, Number, Number, Number]
-    turns: int
-    pairs: list[_Pair]
-    repair: bool = False
-    pins: list[_Pin] = []
-
-
-class _Outline(_Struct):
-    id: Id
-    closed: bool
-    points: list[Point]
-
-
-class _Style(_Struct):
-    fill: str | None
-    stroke: str | None
-    width: Number
-
-
-class _Drawing(_Struct):
-    style: _Style
-    outlines: list[_Outline]
-
-
-class _Reference(_Struct):
-    path: Annotated[str, msgspec.Meta(min_length=1, max_length=LONGEST_PATH)]
-    opacity: Number
-
-
-class _Keyframe(_Struct, omit_defaults=True):
-    frame: int
-    drawing: _Drawing
-    span: _Span
-    reference: _Reference | None = None
-
-
-class _Layer(_Struct):
-    id: Id
-    name: Annotated[str, msgspec.Meta(max_length=LONGEST_NAME)]
-    visible: bool
-    keyframes: list[_Keyframe]
-
-
-class _Stage(_Struct):
-    width: int
-    height: int
-    background: str | None
-
-
-class _Project(_Struct):
-    format: Literal["inkbetween"]
-    version: int
-    stage: _Stage
-    rate: tuple[int, int]
-    length: int
-    layers: list[_Layer]
-
-
-class _Head(msgspec.Struct):
-    """Just enough to tell a foreign file and a newer version from a broken one."""
-
-    format: str = ""
-    version: int = 0
+LARGEST_MB: Final = LARGEST_FILE >> 20
 
 
 def load(path: str | os.PathLike[str]) -> Document:
@@ -184,14 +69,24 @@ def save(document: Document, path: str | os.PathLike[str], *, backup: bool = Fal
 
 
 def encode(document: Document) -> bytes:
-    """Return the bytes of the project file; the same document gives the same bytes."""
-    return msgspec.json.encode(_to_file(document)) + b"\n"
+    """Return the bytes of the project file; the same document gives the same bytes.
+
+    Raises FileFormatError if the document has more than a file may hold.
+    """
+    content = msgspec.json.encode(to_file(document)) + b"\n"
+    if len(content) > LARGEST_FILE:
+        raise FileFormatError(
+            f"the document would take {len(content) >> 20} MB; a file has at most {LARGEST_MB} MB"
+        )
+    return content
 
 
 def decode(content: bytes) -> Document:
     """Return the document in the bytes of a project file; raises FileFormatError that names the place."""
+    if content.count(b"{") > MOST_OBJECTS:
+        raise FileFormatError(f"it has more than {MOST_OBJECTS:,} parts, or it is no Inkbetween project")
     try:
-        head = msgspec.json.decode(content, type=_Head)
+        head = msgspec.json.decode(content, type=Head)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
         raise FileFormatError("it is no Inkbetween project, or it is damaged") from None
     if head.format != FORMAT:
@@ -203,149 +98,4 @@ def decode(content: bytes) -> Document:
         )
     if head.version < 1:
         raise FileFormatError(f"its version is {head.version}; the first one is 1")
-    try:
-        project = msgspec.json.decode(content, type=_Project)
-    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as e:
-        raise FileFormatError(str(e)) from None
-    return _from_file(project)
-
-
-def _to_file(document: Document) -> _Project:
-    """Every number as a plain one: equal documents give equal bytes, and the writer knows no NumPy scalars."""
-    stage = _Stage(int(document.stage.width), int(document.stage.height), document.stage.background)
-    layers = [
-        _Layer(int(layer.id), layer.name, bool(layer.visible), [_keyframe_to_file(k) for k in layer.keyframes])
-        for layer in document.layers
-    ]
-    rate = (int(document.rate.numerator), int(document.rate.denominator))
-    return _Project(FORMAT, VERSION, stage, rate, int(document.length), layers)
-
-
-def _keyframe_to_file(keyframe: Keyframe) -> _Keyframe:
-    drawing, style, span = keyframe.drawing, keyframe.drawing.style, keyframe.span
-    outlines = [_Outline(int(o.id), bool(o.closed), o.points.tolist()) for o in drawing.outlines]
-    easing = span.easing
-    return _Keyframe(
-        int(keyframe.frame),
-        _Drawing(_Style(style.fill, style.stroke, float(style.width)), outlines),
-        _Span(
-            span.method,
-            (float(easing.x1), float(easing.y1), float(easing.x2), float(easing.y2)),
-            int(span.turns),
-            [_pair_to_file(p) for p in span.pairs],
-            bool(span.repair),
-            [_pin_to_file(p) for p in span.pins],
-        ),
-        _Reference(keyframe.reference.path, float(keyframe.reference.opacity)) if keyframe.reference else None,
-    )
-
-
-def _pair_to_file(pair: OutlinePair) -> _Pair:
-    c = pair.correspondence
-    kept = None
-    if c is not None:
-        counts = (int(c.counts[0]), int(c.counts[1]))
-        kept = _Correspondence(c.before.tolist(), c.after.tolist(), counts, bool(c.closed), bool(c.flipped))
-    anchors = [(float(x.before), float(x.after)) for x in pair.anchors]
-    muted = [i for i, x in enumerate(pair.anchors) if x.muted]
-    return _Pair(int(pair.before), int(pair.after), anchors, muted, kept, bool(pair.chosen))
-
-
-def _pin_to_file(pin: SpanPin) -> _Pin:
-    return _Pin(pin.outline, None if pin.outline is None else pin.position, pin.place, pin.handles)
-
-
-def _from_file(project: _Project) -> Document:
-    with _place("stage"):
-        stage = Stage(project.stage.width, project.stage.height, project.stage.background)
-    with _place("rate"):
-        if project.rate[1] < 1:
-            raise FileFormatError("the lower number must be 1 or more")
-        rate = Fraction(*project.rate)
-    layers = []
-    for i, layer in enumerate(project.layers):
-        keyframes = tuple(
-            _keyframe_from_file(k, f"layers[{i}].keyframes[{j}]") for j, k in enumerate(layer.keyframes)
-        )
-        with _place(f"layers[{i}]"):
-            layers.append(Layer(layer.id, layer.name, layer.visible, keyframes))
-        _check_span(layers[-1], f"layers[{i}]")
-    with _place(""):
-        return Document(stage, rate, project.length, tuple(layers))
-
-
-def _keyframe_from_file(keyframe: _Keyframe, where: str) -> Keyframe:
-    outlines = []
-    for i, o in enumerate(keyframe.drawing.outlines):
-        with _place(f"{where}.drawing.outlines[{i}]"):
-            points = np.array(o.points, dtype=np.float64).reshape(-1, 2)
-            outlines.append(Outline(o.id, points, o.closed))
-    with _place(f"{where}.drawing"):
-        style = keyframe.drawing.style
-        drawing = Drawing(tuple(outlines), Style(style.fill, style.stroke, style.width))
-    pairs = [_pair_from_file(p, f"{where}.span.pairs[{i}]") for i, p in enumerate(keyframe.span.pairs)]
-    pins = [_pin_from_file(p, f"{where}.span.pins[{i}]") for i, p in enumerate(keyframe.span.pins)]
-    with _place(f"{where}.span"):
-        s = keyframe.span
-        span = Span(s.method, Easing(*s.easing), s.turns, tuple(pairs), s.repair, tuple(pins))
-    with _place(f"{where}.reference"):
-        kept = keyframe.reference
-        reference = Reference(kept.path, kept.opacity) if kept else None
-    with _place(where):
-        return Keyframe(keyframe.frame, drawing, span, reference)
-
-
-def _pair_from_file(pair: _Pair, where: str) -> OutlinePair:
-    c = pair.correspondence
-    with _place(where):
-        kept = None
-        if c is not None:
-            kept = Correspondence(np.array(c.before), np.array(c.after), c.counts, c.closed, c.flipped)
-        if any(not 0 <= i < len(pair.anchors) for i in pair.muted):
-            raise FileFormatError(f"there are {len(pair.anchors)} anchors; muted are {pair.muted}")
-        anchors = tuple(Anchor(*p, i in pair.muted) for i, p in enumerate(pair.anchors))
-        return OutlinePair(pair.before, pair.after, anchors, kept, pair.chosen)
-
-
-def _pin_from_file(pin: _Pin, where: str) -> SpanPin:
-    with _place(where):
-        if (pin.outline is None) != (pin.position is None):
-            raise FileFormatError("a pin on an outline has both `outline` and `position`, one inside neither")
-        return SpanPin(pin.outline, pin.position or 0.0, pin.place, pin.handles)
-
-
-def _check_span(layer: Layer, where: str) -> None:
-    """Refuse pins and pairs that name no outline of the two keyframes, and anchors that cannot hold."""
-    for j, (k, following) in enumerate(itertools.zip_longest(layer.keyframes, layer.keyframes[1:])):
-        for i, pin in enumerate(k.span.pins):
-            with _place(f"{where}.keyframes[{j}].span.pins[{i}]"):
-                if following is None:
-                    raise FileFormatError("a pin in the span of the last keyframe")
-                pin.check_on(k.drawing)
-        for i, pair in enumerate(k.span.pairs):
-            with _place(f"{where}.keyframes[{j}].span.pairs[{i}]"):
-                if following is None:
-                    raise FileFormatError("a pair of outlines in the span of the last keyframe")
-                a, b = k.drawing.outline(pair.before), following.drawing.outline(pair.after)
-                counts = (len(a.points), len(b.points))
-                if a.closed != b.closed:
-                    raise FileFormatError("a closed outline is paired with an open one")
-                ordered_anchors(pair.held, counts, closed=a.closed)
-                c = pair.correspondence
-                if c is not None and (c.counts, c.closed) != (counts, a.closed):
-                    raise FileFormatError(f"a correspondence of {c.counts} vertices for outlines with {counts}")
-
-
-class _place:
-    """Put the place in the file in front of what is wrong there."""
-
-    def __init__(self, where: str) -> None:
-        self.where = where
-
-    def __enter__(self) -> None:
-        return None
-
-    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
-        if isinstance(error, InkbetweenError):
-            path = f" - at `$.{self.where}`" if self.where else ""
-            raise FileFormatError(f"{error}{path}") from None
+    return from_file(decoded(content, ProjectFile))

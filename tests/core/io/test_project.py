@@ -446,7 +446,7 @@ def test_a_device_is_not_read_for_ever():
 def test_a_file_too_large_to_be_a_project_is_not_read(project):
     with project.open("r+b") as file:
         file.truncate(LARGEST_FILE + 1)
-    with pytest.raises(FileFormatError, match="larger than 512 MB"):
+    with pytest.raises(FileFormatError, match="larger than 128 MB"):
         load(project)
 
 
