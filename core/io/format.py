@@ -36,6 +36,7 @@ LIMITS: Final = {
 
 Number = float
 Point = tuple[Number, Number]
+Word = Annotated[str, msgspec.Meta(max_length=100)]
 Id = Annotated[int, msgspec.Meta(ge=1, le=LARGEST_ID)]
 Count = Annotated[int, msgspec.Meta(ge=2, le=LARGEST_ID)]
 
@@ -94,7 +95,7 @@ class PinFile(Struct, omit_defaults=True):
 class SpanFile(Struct, omit_defaults=True):
     """The way from a keyframe to the next one."""
 
-    method: str
+    method: Word
     easing: tuple[Number, Number, Number, Number]
     turns: int
     pairs: list[PairFile]
@@ -113,8 +114,8 @@ class OutlineFile(Struct):
 class StyleFile(Struct):
     """How a drawing is painted."""
 
-    fill: str | None
-    stroke: str | None
+    fill: Word | None
+    stroke: Word | None
     width: Number
 
 
@@ -155,7 +156,7 @@ class StageFile(Struct):
 
     width: int
     height: int
-    background: str | None
+    background: Word | None
 
 
 class ProjectFile(Struct):

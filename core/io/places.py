@@ -8,6 +8,7 @@ import msgspec
 from core.errors import FileFormatError, InkbetweenError
 from core.io.format import LIMITS
 
+LONGEST_TEXT = 400
 T = TypeVar("T")
 
 
@@ -44,7 +45,12 @@ def decoded(content: Any, kind: type[T]) -> T:
     try:
         return msgspec.json.decode(content, type=kind)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError) as e:
-        raise FileFormatError(str(e)) from None
+        raise FileFormatError(_short(str(e))) from None
+
+
+def _short(text: str) -> str:
+    """Cut out the middle of a text that repeats what a hostile file says."""
+    return text if len(text) <= LONGEST_TEXT else f"{text[:100]}…{text[100 - LONGEST_TEXT :]}"
 
 
 def decoded_at(raw: msgspec.Raw, kind: type[T], where: str) -> T:

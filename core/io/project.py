@@ -14,7 +14,7 @@ from core.errors import FileFormatError
 from core.io.format import FORMAT, LARGEST_FILE, MOST_OBJECTS, SUFFIX, VERSION, Head, ProjectFile
 from core.io.places import decoded
 from core.io.reading import from_file
-from core.io.storage import Fingerprint, fingerprint, read_bounded, write_atomically
+from core.io.storage import Fingerprint, changed_at, fingerprint, read_bounded, write_atomically
 from core.io.writing import to_file
 from core.model.document import Document
 
@@ -39,12 +39,13 @@ def load(path: str | os.PathLike[str]) -> Document:
 def load_seen(path: str | os.PathLike[str]) -> tuple[Document, Fingerprint]:
     """Read a project file as `load` does, and say by what it can be known again."""
     file = Path(path)
+    time = changed_at(file)  # before it is read: a change in between is seen as one
     content = read_bounded(file, LARGEST_FILE)
-    seen = fingerprint(file, content)
     try:
-        return decode(content), seen
+        document = decode(content)
     except FileFormatError as e:
         raise FileFormatError(f"cannot open {file.name}: {e}") from None
+    return document, fingerprint(file, content, time)
 
 
 def save(document: Document, path: str | os.PathLike[str], *, backup: bool = False) -> Fingerprint:

@@ -6,7 +6,7 @@ import os
 import secrets
 import shutil
 import stat
-import time
+import time as clock
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -43,19 +43,24 @@ class Fingerprint:
     digest: bytes
 
 
-def fingerprint(path: Path, content: bytes) -> Fingerprint:
-    """Return the fingerprint of a file that holds `content`."""
+def fingerprint(path: Path, content: bytes, time: int | None = None) -> Fingerprint:
+    """Return the fingerprint of a file that holds `content`; `time` is that of `changed_at` before it was read."""
+    return Fingerprint(changed_at(path) if time is None else time, len(content), _digest(content))
+
+
+def changed_at(path: Path) -> int:
+    """Return when a file was changed, ns; 0 where that cannot be told: it will be compared by its content."""
     try:
-        changed = path.stat().st_mtime_ns
+        return path.stat().st_mtime_ns
     except OSError:
-        changed = 0  # it will be compared by its content
-    return Fingerprint(changed, len(content), _digest(content))
+        return 0
 
 
 def fingerprint_on_disk(path: Path, most: int) -> Fingerprint | None:
     """Return the fingerprint of a file as it is now; None where it cannot be read."""
+    time = changed_at(path)
     try:
-        return fingerprint(path, read_bounded(path, most))
+        return fingerprint(path, read_bounded(path, most), time)
     except (StorageError, FileFormatError):
         return None
 
@@ -170,7 +175,7 @@ def _sweep(target: Path) -> None:
         for name in os.listdir(target.parent):
             if name.startswith(_prefix(target)) and name.endswith(PART_SUFFIX):
                 part = target.parent / name
-                if time.time() - part.lstat().st_mtime > FORGOTTEN_S:
+                if clock.time() - part.lstat().st_mtime > FORGOTTEN_S:
                     part.unlink(missing_ok=True)
 
 

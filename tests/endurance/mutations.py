@@ -10,7 +10,6 @@ processes of their own, so that a crash is seen and memory is measured.
 import copy
 import json
 import random
-import resource
 import subprocess
 import sys
 import time
@@ -257,7 +256,7 @@ def batch(kind, seed, amount):
             count.take(restructured(data, contents, known), open_project)
 
         each()
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    peak = peak_mb()
     counted = (count.opened, count.refused, count.slowest, peak, sorted(set(count.wrong))[:5])
     print(json.dumps(counted))
 
@@ -293,6 +292,9 @@ def main():
 
 
 if sys.argv[1:2] == ["batch"]:
+    sys.path.insert(0, str(Path(__file__).parent))
+
+    from measure import peak_mb
     from PySide6.QtCore import QSize
 
     from app.thumbnail import thumbnail
