@@ -48,7 +48,9 @@ class Emergency(QObject):
         sys.excepthook = self._on_exception
         threading.excepthook = lambda a: self._on_exception(a.exc_type, a.exc_value, a.exc_traceback)
         sys.unraisablehook = lambda a: self._on_exception(a.exc_type, a.exc_value, a.exc_traceback)
-        qInstallMessageHandler(self._on_qt_message)
+        self._qt_hook = qInstallMessageHandler(self._on_qt_message)
+        if faulthandler.is_enabled():
+            return
         with contextlib.suppress(OSError):
             self._log.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
             self._crash_log = self._log.with_suffix(".crash.log").open("a", encoding="utf-8")
@@ -57,10 +59,11 @@ class Emergency(QObject):
     def uninstall(self) -> None:
         """Leave everything as it was."""
         sys.excepthook, threading.excepthook, sys.unraisablehook = self._hooks
-        qInstallMessageHandler(None)
+        qInstallMessageHandler(self._qt_hook)
         if self._crash_log is not None:
             faulthandler.disable()
             self._crash_log.close()
+            self._crash_log = None
 
     def _on_exception(
         self, kind: type[BaseException], error: BaseException | None, trace: TracebackType | None

@@ -52,7 +52,7 @@ class Place:
             own = _own(self._folder, self.name)
             beside = None if recovery.path is None else hidden_beside(recovery.path, f"{self.name}.{ENDING}")
             if beside is None or not self._written(beside, content):
-                write_atomically(own, content)
+                write_atomically(own, content, private=True)
                 self._move_to(own)
 
     def _written(self, beside: Path, content: bytes) -> bool:
@@ -60,7 +60,7 @@ class Place:
         try:
             if beside != self._file:
                 write_atomically(_note(self._folder, self.name), str(beside).encode("utf-8", "surrogateescape"))
-            write_atomically(beside, content)
+            write_atomically(beside, content, private=True)
         except StorageError:
             return False
         self._move_to(beside)

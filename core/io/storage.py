@@ -20,6 +20,7 @@ LONGEST_PREFIX = 50
 NEW_MODE = 0o666
 """Permissions of a new file before the umask, as for any new file."""
 
+PRIVATE_MODE = 0o600
 FORGOTTEN_S = 600.0
 """A part of a file that is older than this was left by a program that was killed."""
 
@@ -115,17 +116,19 @@ def hidden_beside(path: Path, ending: str) -> Path:
     return path.with_name(f".{path.name[:LONGEST_PREFIX]}.{ending}")
 
 
-def write_atomically(path: Path, content: bytes, *, backup: bool = False) -> None:
+def write_atomically(path: Path, content: bytes, *, backup: bool = False, private: bool = False) -> None:
     """Put `content` into `path` in one step; raises StorageError and leaves the old file if it cannot.
 
-    With `backup` the old file takes the place of `backup_of(path)` just before.
+    With `backup` the old file takes the place of `backup_of(path)` just before. A new file that is `private` can be
+    read by its owner only.
     """
+    new_mode = PRIVATE_MODE if private else NEW_MODE
     temporary: Path | None = None
     try:
         target = path.resolve()  # a link stays a link, its target is replaced
         mode = target.stat().st_mode & 0o777 if target.exists() else None
         temporary = target.with_name(f"{_prefix(target)}{secrets.token_hex(6)}{PART_SUFFIX}")
-        with open(temporary, "xb", opener=lambda name, flags: os.open(name, flags, mode or NEW_MODE)) as file:
+        with open(temporary, "xb", opener=lambda name, flags: os.open(name, flags, mode or new_mode)) as file:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
