@@ -29,7 +29,7 @@ class RecoveryDialog(QDialog):
     def __init__(self, found: Sequence[Found], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle("Recover Unsaved Work")
-        self.setMinimumSize(560, 380)
+        self.setMinimumSize(600, 440)
         self._found = list(found)
         self._marked: set[int] = set()
         self.opened: Found | None = None
@@ -45,7 +45,7 @@ class RecoveryDialog(QDialog):
         self.list.setSpacing(4)
         self.list.setWordWrap(True)
         for i, each in enumerate(self._found):
-            item = QListWidgetItem(QIcon(_picture(each, self)), self._text(i))
+            item = QListWidgetItem(_icon(each, self), self._text(i))
             item.setToolTip(str(each.recovery.path or each.place.file))
             self.list.addItem(item)
         self.list.currentRowChanged.connect(self._on_row_changed)
@@ -111,6 +111,14 @@ class RecoveryDialog(QDialog):
         if row >= 0 and row not in self._marked:
             self.opened = self._found[row]
             self.accept()
+
+
+def _icon(found: Found, widget: QWidget) -> QIcon:
+    """Return the picture, in its own colours in the selected row too."""
+    picture, icon = _picture(found, widget), QIcon()
+    for mode in (QIcon.Mode.Normal, QIcon.Mode.Selected):
+        icon.addPixmap(picture, mode)
+    return icon
 
 
 def _picture(found: Found, widget: QWidget) -> QPixmap:

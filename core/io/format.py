@@ -8,11 +8,11 @@ from typing import Annotated, Any, Final, Literal
 
 import msgspec
 
-from core.model.document import LONGEST_NAME, LONGEST_PATH
+from core.model.document import LONGEST_NAME, LONGEST_PATH, PLACEMENTS
 from core.model.drawing import LARGEST_ID
 
 FORMAT: Final = "inkbetween"
-VERSION: Final = 1
+VERSION: Final = 2
 SUFFIX: Final = ".inkb"
 
 LARGEST_FILE: Final = 128 * 1024 * 1024
@@ -24,18 +24,26 @@ MOST_OUTLINES: Final = 50_000
 MOST_KEYFRAMES: Final = 50_000
 MOST_LAYERS: Final = 1000
 MOST_ANCHORS: Final = 100_000
+MOST_KNOTS: Final = 100_000
+MOST_EXPOSURES: Final = 1_000_000
 LIMITS: Final = {
     "vertices": MOST_VERTICES,
     "outlines": MOST_OUTLINES,
     "keyframes": MOST_KEYFRAMES,
     "layers": MOST_LAYERS,
     "anchors": MOST_ANCHORS,
+    "knots": MOST_KNOTS,
+    "exposures": MOST_EXPOSURES,
     "positions": MOST_VERTICES,
 }
 """Of a whole document, by what is counted; `positions` are those of correspondences, each pair once."""
 
+OPAQUE: Final = 1.0
+"""Left out of the file, which the writer does by identity."""
+
 Number = float
 Point = tuple[Number, Number]
+KnotFile = tuple[Number, Number, Number, Number, Number, Number]
 Word = Annotated[str, msgspec.Meta(max_length=100)]
 Id = Annotated[int, msgspec.Meta(ge=1, le=LARGEST_ID)]
 Count = Annotated[int, msgspec.Meta(ge=2, le=LARGEST_ID)]
@@ -53,6 +61,10 @@ def _listed(items: dict[str, Any], **more: int) -> msgspec.Meta:
 
 
 Points = Annotated[msgspec.Raw, _listed(_POINT, minItems=2)]
+Knots = Annotated[
+    msgspec.Raw, _listed({"type": "array", "items": {"type": "number"}, "minItems": 6, "maxItems": 6})
+]
+Exposures = Annotated[msgspec.Raw, _listed({"type": "integer", "minimum": 1})]
 Numbers = Annotated[msgspec.Raw, _listed({"type": "number"}, minItems=1)]
 Anchors = Annotated[msgspec.Raw, _listed(_POINT)]
 Indices = Annotated[msgspec.Raw, _listed({"type": "integer", "minimum": 0})]
@@ -101,6 +113,11 @@ class SpanFile(Struct, omit_defaults=True):
     pairs: list[PairFile]
     repair: bool = False
     pins: list[PinFile] = []
+    knots: Knots | msgspec.UnsetType = msgspec.UNSET
+    placement: Word = PLACEMENTS[0]
+    hold: bool = False
+    step: int = 1
+    exposures: Exposures | msgspec.UnsetType = msgspec.UNSET
 
 
 class OutlineFile(Struct):
@@ -111,12 +128,13 @@ class OutlineFile(Struct):
     points: Points
 
 
-class StyleFile(Struct):
+class StyleFile(Struct, omit_defaults=True):
     """How a drawing is painted."""
 
     fill: Word | None
     stroke: Word | None
     width: Number
+    opacity: Number = OPAQUE
 
 
 class DrawingFile(Struct):
@@ -140,15 +158,20 @@ class KeyframeFile(Struct, omit_defaults=True):
     drawing: DrawingFile
     span: SpanFile
     reference: ReferenceFile | None = None
+    smooth: bool = False
 
 
-class LayerFile(Struct):
+class LayerFile(Struct, omit_defaults=True):
     """Keyframes in order of frame."""
 
     id: Id
     name: Annotated[str, msgspec.Meta(max_length=LONGEST_NAME)]
     visible: bool
     keyframes: list[KeyframeFile]
+    locked: bool = False
+    opacity: Number = OPAQUE
+    color: Word | None = None
+    parent: Id | None = None
 
 
 class StageFile(Struct):
@@ -163,7 +186,7 @@ class ProjectFile(Struct):
     """One document."""
 
     format: Literal["inkbetween"]
-    version: Literal[1]
+    version: Literal[2]
     stage: StageFile
     rate: tuple[int, int]
     length: int

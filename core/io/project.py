@@ -11,8 +11,8 @@ from typing import Final
 import msgspec
 
 from core.errors import FileFormatError
-from core.io.format import FORMAT, LARGEST_FILE, MOST_OBJECTS, SUFFIX, VERSION, Head, ProjectFile
-from core.io.places import decoded
+from core.io.format import FORMAT, LARGEST_FILE, MOST_OBJECTS, SUFFIX, VERSION, Head
+from core.io.migration import project_of
 from core.io.reading import from_file
 from core.io.storage import Fingerprint, changed_at, fingerprint, read_bounded, write_atomically
 from core.io.writing import to_file
@@ -99,4 +99,4 @@ def decode(content: bytes) -> Document:
         )
     if head.version < 1:
         raise FileFormatError(f"its version is {head.version}; the first one is 1")
-    return from_file(decoded(content, ProjectFile))
+    return from_file(project_of(content, head.version))

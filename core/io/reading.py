@@ -2,6 +2,7 @@
 
 import itertools
 from fractions import Fraction
+from typing import Any
 
 import msgspec
 import numpy as np
@@ -13,6 +14,7 @@ from core.io.format import (
     CorrespondenceFile,
     DrawingFile,
     KeyframeFile,
+    KnotFile,
     LayerFile,
     OutlineFile,
     PairFile,
@@ -24,7 +26,7 @@ from core.io.format import (
 from core.io.places import Budget, decoded_at, place
 from core.model.document import Anchor, Document, Keyframe, Layer, OutlinePair, Reference, Span, Stage
 from core.model.drawing import Drawing, Outline, Style
-from core.model.easing import Easing
+from core.model.easing import Easing, Knot
 from core.model.pins import SpanPin
 
 Outlines = dict[int, Outline]
@@ -51,7 +53,8 @@ def _layer(layer: LayerFile, where: str, budget: Budget) -> Layer:
         budget.take("keyframes", len(layer.keyframes))
     keyframes = [_keyframe(k, f"{where}.keyframes[{j}]", budget) for j, k in enumerate(layer.keyframes)]
     with place(where):
-        made = Layer(layer.id, layer.name, layer.visible, tuple(keyframes))
+        own = layer.locked, layer.opacity, layer.color, layer.parent
+        made = Layer(layer.id, layer.name, layer.visible, tuple(keyframes), *own)
     outlines = [{o.id: o for o in k.drawing.outlines} for k in keyframes]
     for j, (before, after) in enumerate(itertools.zip_longest(outlines, outlines[1:])):
         _check_span(keyframes[j].span, before, after, f"{where}.keyframes[{j}].span")
@@ -65,7 +68,7 @@ def _keyframe(keyframe: KeyframeFile, where: str, budget: Budget) -> Keyframe:
         kept = keyframe.reference
         reference = Reference(kept.path, kept.opacity) if kept else None
     with place(where):
-        return Keyframe(keyframe.frame, drawing, span, reference)
+        return Keyframe(keyframe.frame, drawing, span, reference, keyframe.smooth)
 
 
 def _drawing(drawing: DrawingFile, where: str, budget: Budget) -> Drawing:
@@ -74,7 +77,7 @@ def _drawing(drawing: DrawingFile, where: str, budget: Budget) -> Drawing:
     outlines = tuple(_outline(o, f"{where}.outlines[{i}]", budget) for i, o in enumerate(drawing.outlines))
     with place(where):
         style = drawing.style
-        return Drawing(outlines, Style(style.fill, style.stroke, style.width))
+        return Drawing(outlines, Style(style.fill, style.stroke, style.width, style.opacity))
 
 
 def _outline(outline: OutlineFile, where: str, budget: Budget) -> Outline:
@@ -88,17 +91,29 @@ def _outline(outline: OutlineFile, where: str, budget: Budget) -> Outline:
 def _span(span: SpanFile, where: str, budget: Budget) -> Span:
     pairs = tuple(_pair(p, f"{where}.pairs[{i}]", budget) for i, p in enumerate(span.pairs))
     pins = tuple(_pin(p, f"{where}.pins[{i}]") for i, p in enumerate(span.pins))
+    knots = _listed(span.knots, KnotFile, "knots", 6, where, budget)
+    exposures = _listed(span.exposures, int, "exposures", 1, where, budget)
     with place(where):
-        return Span(span.method, Easing(*span.easing), span.turns, pairs, span.repair, pins)
+        easing = Easing(*span.easing, tuple(Knot(*k) for k in knots))
+        timing = span.placement, span.hold, span.step, tuple(exposures)
+        return Span(span.method, easing, span.turns, pairs, span.repair, pins, *timing)
+
+
+def _listed(
+    raw: msgspec.Raw | msgspec.UnsetType, kind: Any, what: str, numbers: int, where: str, budget: Budget
+) -> list[Any]:
+    """Return a list that may be left out, of things of so many `numbers`, which are counted as `what`."""
+    if raw is msgspec.UNSET:
+        return []
+    with place(f"{where}.{what}"):
+        budget.take(what, -(-_commas(raw) // numbers))
+    listed: list[Any] = decoded_at(raw, list[kind], f"{where}.{what}")
+    return listed
 
 
 def _pair(pair: PairFile, where: str, budget: Budget) -> OutlinePair:
-    points: list[Point] = []
+    points = _listed(pair.anchors, Point, "anchors", 2, where, budget)
     muted: list[int] = []
-    if pair.anchors is not msgspec.UNSET:
-        with place(f"{where}.anchors"):
-            budget.take("anchors", (_commas(pair.anchors) + 1) // 2)
-        points = decoded_at(pair.anchors, list[Point], f"{where}.anchors")
     if pair.muted is not msgspec.UNSET:
         with place(f"{where}.muted"):
             if _commas(pair.muted) >= len(points):

@@ -7,6 +7,7 @@ import msgspec
 
 from core.io.format import (
     FORMAT,
+    OPAQUE,
     VERSION,
     CorrespondenceFile,
     DrawingFile,
@@ -43,7 +44,20 @@ def to_file(document: Document) -> ProjectFile:
 def _layer(layer: Layer, budget: Budget) -> LayerFile:
     budget.take("keyframes", len(layer.keyframes))
     keyframes = [_keyframe(k, budget) for k in layer.keyframes]
-    return LayerFile(int(layer.id), layer.name, bool(layer.visible), keyframes)
+    return LayerFile(
+        int(layer.id),
+        layer.name,
+        bool(layer.visible),
+        keyframes,
+        bool(layer.locked),
+        _opacity(layer.opacity),
+        layer.color,
+        None if layer.parent is None else int(layer.parent),
+    )
+
+
+def _opacity(opacity: float) -> float:
+    return OPAQUE if opacity == OPAQUE else float(opacity)
 
 
 def _keyframe(keyframe: Keyframe, budget: Budget) -> KeyframeFile:
@@ -53,6 +67,7 @@ def _keyframe(keyframe: Keyframe, budget: Budget) -> KeyframeFile:
         _drawing(keyframe.drawing, budget),
         _span(keyframe.span, budget),
         ReferenceFile(kept.path, float(kept.opacity)) if kept else None,
+        bool(keyframe.smooth),
     )
 
 
@@ -61,11 +76,14 @@ def _drawing(drawing: Drawing, budget: Budget) -> DrawingFile:
     budget.take("vertices", sum(len(o.points) for o in drawing.outlines))
     style = drawing.style
     outlines = [OutlineFile(int(o.id), bool(o.closed), _raw(o.points.tolist())) for o in drawing.outlines]
-    return DrawingFile(StyleFile(style.fill, style.stroke, float(style.width)), outlines)
+    kept = StyleFile(style.fill, style.stroke, float(style.width), _opacity(style.opacity))
+    return DrawingFile(kept, outlines)
 
 
 def _span(span: Span, budget: Budget) -> SpanFile:
     easing = span.easing
+    budget.take("knots", len(easing.knots))
+    budget.take("exposures", len(span.exposures))
     return SpanFile(
         span.method,
         (float(easing.x1), float(easing.y1), float(easing.x2), float(easing.y2)),
@@ -73,6 +91,11 @@ def _span(span: Span, budget: Budget) -> SpanFile:
         [_pair(p, budget) for p in span.pairs],
         bool(span.repair),
         [_pin(p) for p in span.pins],
+        _raw_or_unset(tuple(map(float, k)) for k in easing.knots),
+        span.placement,
+        bool(span.hold),
+        int(span.step),
+        _raw_or_unset(map(int, span.exposures)),
     )
 
 

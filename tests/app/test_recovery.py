@@ -1,6 +1,7 @@
 """Unsaved work outlives the program: what is kept, what is offered, and what happens to it."""
 
 import os
+import stat
 from dataclasses import replace
 
 import pytest
@@ -142,6 +143,21 @@ def test_closing_in_order_leaves_nothing(hand, path, state, qtbot, monkeypatch):
     hand.editor.window.close()
     assert list(state.iterdir()) == []
     assert [p.name for p in path.parent.iterdir()] == ["film.inkb"]
+
+
+def test_a_program_that_is_told_to_end_leaves_its_work_for_the_next_start(hand, state):
+    changed = change(hand, 9)
+    hand.editor.safekeeping.stop(leave=True)
+    (found,), problems = find(state)
+    assert (found.recovery.document, problems) == (changed, [])
+    found.place.release()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="permissions of POSIX")
+def test_only_its_owner_can_read_what_is_kept(hand, qtbot):
+    change(hand, 9)
+    assert kept(hand, qtbot)
+    assert stat.S_IMODE(hand.editor.safekeeping.autosave.place.file.stat().st_mode) == 0o600
 
 
 def test_a_folder_that_takes_nothing_is_no_reason_to_keep_nothing(hand, path, state, qtbot, monkeypatch):

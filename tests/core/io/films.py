@@ -18,6 +18,18 @@ FLAG = Outline(2**31 - 1, np.array([(-3, -3), (3, -3), (3, 3), (0, 5), (-3, 3)])
 PLAIN = Style("#7b61e8", None, 4.0)
 
 
+def first_of_version_1():
+    """Return what the oldest kept file holds."""
+    wave, hole, line = WAVE, HOLE, Outline(7, np.array([(0, 0), (5, 5)]), closed=False)
+    kept = Correspondence(np.array([0.0, 1.5]), np.array([2.0, 0.25]), (4, 3), flipped=True)
+    fixed = (OutlinePair(1, 2, (Anchor(0.0, 2.0), Anchor(1.5, 0.25)), kept), OutlinePair(7, 7))
+    span = Span("linear", Easing(0.25, -0.5, 0.75, 1.5), -2, fixed)
+    first = Keyframe(1, Drawing((wave, hole, line), Style("#12345678", "#abcdef", 2.5)), span)
+    last = Keyframe(48, Drawing((hole, line), Style(None, None, 0.0)), Span("intrinsic"))
+    front = Layer(3, "Flügel ✎", True, (first, last))
+    return Document(Stage(1280, 720, "#101216"), Fraction(24000, 1001), 60, (Layer(1, "", False), front))
+
+
 def everything_of_version_1():
     """Return a document with every field of version 1 set to what it is not by default, somewhere."""
     kept = Correspondence(np.array([0.0, 1.5, 3.25]), np.array([2.0, 0.25, 2.75]), (4, 3), flipped=True)
