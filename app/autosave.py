@@ -13,7 +13,7 @@ from app.session import Session
 from core.errors import InkbetweenError
 from core.io.recovery import Recovery
 
-WAIT_S = 1.5
+WAIT_S = 1.0
 """From a change to the writing of it; what is lost at most is this and the time of writing.
 
 The worker waits, not a timer of the window: edits of a large drawing may keep the window busy for longer.

@@ -1,7 +1,7 @@
 """The open document, what is selected in it and where the playhead stands; the only place that changes them."""
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -9,68 +9,15 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoStack
 
 from app.commands import EditDocument, Step
+from app.selection import AnchorRef, OutlineRef, PinRef, Selection
 from core.errors import InkbetweenError
 from core.io.project import load, save
 from core.model.document import Document, Keyframe, Layer
 from core.model.references import with_absolute_references, with_relative_references
 
+__all__ = ["AnchorRef", "DocumentDiff", "Gesture", "OutlineRef", "PinRef", "Selection", "Session"]
+
 UNDO_LIMIT = 200
-
-OutlineRef = tuple[int, int]
-"""The frame of a keyframe in the active layer, and the id of an outline in its drawing."""
-
-
-@dataclass(frozen=True, slots=True)
-class AnchorRef:
-    """One anchor: the frame its span begins at, the two outlines' ids, its index in their pair."""
-
-    frame: int
-    before: int
-    after: int
-    index: int
-
-
-@dataclass(frozen=True, slots=True)
-class PinRef:
-    """One pin: the frame its span begins at, its index in the span."""
-
-    frame: int
-    index: int
-
-
-@dataclass(frozen=True, slots=True)
-class Selection:
-    """What the next edit is about.
-
-    Attributes
-    ----------
-    vertices : mapping from OutlineRef to sorted tuple of int
-        Selected vertices of each outline that has any.
-    anchor : AnchorRef or None
-    pin : PinRef or None
-    """
-
-    vertices: Mapping[OutlineRef, tuple[int, ...]] = field(default_factory=dict)
-    anchor: AnchorRef | None = None
-    pin: PinRef | None = None
-
-    @property
-    def count(self) -> int:
-        """Number of selected vertices."""
-        return sum(map(len, self.vertices.values()))
-
-    def has(self, ref: OutlineRef, index: int) -> bool:
-        return index in self.vertices.get(ref, ())
-
-    def with_vertices(self, ref: OutlineRef, indices: Iterable[int]) -> "Selection":
-        """Return a selection in which exactly these vertices of an outline are selected."""
-        kept = dict(self.vertices)
-        chosen = tuple(sorted(set(indices)))
-        if chosen:
-            kept[ref] = chosen
-        else:
-            kept.pop(ref, None)
-        return Selection(kept)
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,6 +97,8 @@ class Session(QObject):
     frameChanged = Signal(int)
     layerChanged = Signal()
     fileChanged = Signal()
+    soloChanged = Signal()
+    rangeChanged = Signal()
     gestureChanged = Signal(bool)
     problem = Signal(str)
 
@@ -163,6 +112,8 @@ class Session(QObject):
         self._frame = 1
         self._layer_id = 1
         self._gesture: Gesture | None = None
+        self._solo: frozenset[int] = frozenset()
+        self._range: tuple[int, int] | None = None
         self.path: Path | None = None
         self.title: str | None = None
 
@@ -200,6 +151,27 @@ class Session(QObject):
     def name(self) -> str:
         """The file's name without its suffix, for titles and exports."""
         return self.path.stem if self.path else (self.title or "untitled")
+
+    @property
+    def solo(self) -> frozenset[int]:
+        """Ids of the layers that are shown alone; of none: all visible ones are shown."""
+        return self._solo
+
+    @property
+    def range(self) -> tuple[int, int]:
+        """The first and the last frame that are played."""
+        last = self._document.length
+        first, end = self._range or (1, last)
+        return min(first, last), min(end, last)
+
+    @property
+    def has_range(self) -> bool:
+        """Whether only a part of the film is played."""
+        return self._range is not None
+
+    def shows(self, layer: Layer) -> bool:
+        """Whether a layer is seen in the window."""
+        return layer.id in self._solo if self._solo else layer.visible
 
     def span_keyframes(self) -> tuple[Keyframe | None, Keyframe | None]:
         """Return the keyframes around the playhead in the active layer."""
@@ -265,6 +237,7 @@ class Session(QObject):
         self._document = document
         if all(layer.id != self._layer_id for layer in document.layers):
             self._layer_id = document.layers[-1].id
+        self._solo &= {layer.id for layer in document.layers}
         valid = self._valid(self._selection)
         selection_changed = valid != self._selection
         self._selection = valid
@@ -298,6 +271,21 @@ class Session(QObject):
             self._layer_id = layer_id
             self.select(Selection())
             self.layerChanged.emit()
+
+    def set_solo(self, layer_ids: Iterable[int]) -> None:
+        """Show these layers alone, or, with none, all that are visible."""
+        solo = frozenset(layer_ids) & {layer.id for layer in self._document.layers}
+        if solo != self._solo:
+            self._solo = solo
+            self.soloChanged.emit()
+
+    def set_range(self, first_and_last: tuple[int, int] | None) -> None:
+        """Play from one frame to another, or, with None, the whole film."""
+        if first_and_last is not None:
+            first_and_last = (max(1, min(first_and_last)), max(first_and_last))
+        if first_and_last != self._range:
+            self._range = first_and_last
+            self.rangeChanged.emit()
 
     def _valid(self, selection: Selection) -> Selection:
         counts = {(k.frame, o.id): len(o.points) for k in self.layer.keyframes for o in k.drawing.outlines}
@@ -368,6 +356,7 @@ class Session(QObject):
             self._gesture.cancel()
         self.path, self.title = path, title
         self._selection = Selection()
+        self._solo, self._range = frozenset(), None
         self._layer_id = document.layers[-1].id
         diff = DocumentDiff(self._document, document)
         self._document = document

@@ -34,4 +34,5 @@ def _picture(layer: Layer, frame: int) -> Picture | None:
     if keyframe is None:
         return None
     outlines = tuple((o.points, o.closed) for o in keyframe.drawing.outlines)
-    return Picture(outlines, keyframe.drawing.style)
+    style = keyframe.drawing.style
+    return Picture(outlines, style, layer.opacity * style.opacity)

@@ -15,7 +15,7 @@ from app.painting import Background, render_frame
 from core.errors import InkbetweenError, StorageError
 from core.model.document import LARGEST_STAGE, LONGEST, Document
 from core.model.drawing import as_color
-from core.model.inbetweens import PlanCache
+from core.model.motion import PlanCache
 
 MOST_ENCODERS = 4
 PIXELS_IN_FLIGHT = 48_000_000

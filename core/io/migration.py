@@ -30,9 +30,7 @@ def project_of(content: bytes, version: int) -> ProjectFile:
 def _from_1(old: v1.Project1) -> ProjectFile:
     """Version 2 only added fields; each is what version 1 did."""
     stage = StageFile(old.stage.width, old.stage.height, old.stage.background)
-    layers = [
-        LayerFile(x.id, x.name, x.visible, [_keyframe_from_1(k) for k in x.keyframes]) for x in old.layers
-    ]
+    layers = [LayerFile(x.id, x.name, x.visible, [_keyframe_from_1(k) for k in x.keyframes]) for x in old.layers]
     return ProjectFile(FORMAT, VERSION, stage, old.rate, old.length, layers)
 
 

@@ -124,7 +124,7 @@ def _pair(pair: PairFile, where: str, budget: Budget) -> OutlinePair:
         if any(not 0 <= i < len(points) for i in muted):
             raise FileFormatError(f"there are {len(points)} anchors; muted are {muted[:20]}")
         silent = frozenset(muted)
-        anchors = tuple(Anchor(*p, i in silent) for i, p in enumerate(points))
+        anchors = tuple(Anchor(a, b, i in silent) for i, (a, b) in enumerate(points))
         return OutlinePair(pair.before, pair.after, anchors, kept, pair.chosen)
 
 

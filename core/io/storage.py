@@ -119,8 +119,8 @@ def hidden_beside(path: Path, ending: str) -> Path:
 def write_atomically(path: Path, content: bytes, *, backup: bool = False, private: bool = False) -> None:
     """Put `content` into `path` in one step; raises StorageError and leaves the old file if it cannot.
 
-    With `backup` the old file takes the place of `backup_of(path)` just before. A new file that is `private` can be
-    read by its owner only.
+    With `backup` the old file takes the place of `backup_of(path)` just before. A new file that is `private` can
+    be read by its owner only.
     """
     new_mode = PRIVATE_MODE if private else NEW_MODE
     temporary: Path | None = None
@@ -128,7 +128,7 @@ def write_atomically(path: Path, content: bytes, *, backup: bool = False, privat
         target = path.resolve()  # a link stays a link, its target is replaced
         mode = target.stat().st_mode & 0o777 if target.exists() else None
         temporary = target.with_name(f"{_prefix(target)}{secrets.token_hex(6)}{PART_SUFFIX}")
-        with open(temporary, "xb", opener=lambda name, flags: os.open(name, flags, mode or new_mode)) as file:
+        with open(temporary, "xb", opener=lambda name, how: os.open(name, how, mode or new_mode)) as file:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())

@@ -66,7 +66,7 @@ def main():
 
     from app.export.png import encode_png
     from app.painting import render_frame
-    from core.model.inbetweens import PlanCache
+    from core.model.motion import PlanCache
 
     export(8)
     for vertices in (40, 1000):

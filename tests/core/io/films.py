@@ -1,5 +1,6 @@
 """Documents that use everything a version of the project file can hold; the kept files are held to them."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from core.correspondence.pairing import Correspondence
 from core.model.document import Anchor, Document, Keyframe, Layer, OutlinePair, Reference, Span, Stage
 from core.model.drawing import Drawing, Outline, Style
-from core.model.easing import Easing
+from core.model.easing import Easing, Knot
 from core.model.pins import SpanPin
 
 WAVE = Outline(1, np.array([(0.5, 0), (100, -0.25), (90, 1e-7), (0, 1e9)]))
@@ -63,3 +64,19 @@ def everything_of_version_1():
         Layer(2**31 - 1, "front", True, (Keyframe(5, Drawing((FLAG,), PLAIN), Span("auto")),)),
     )
     return Document(Stage(1280, 720, "#101216"), Fraction(24000, 1001), 60, layers)
+
+
+def everything_of_version_2():
+    """Return a document with every field of version 2 set to what it is not by default, somewhere."""
+    old = everything_of_version_1()
+    _, wing, front = old.layers
+    first, middle, *rest = wing.keyframes
+    knots = (Knot(0.25, 2.5, 0.0, -4.0, 0.5, 5.0), Knot(0.75, 0.5, 0.625, 0.5, 0.75, 1e-7))
+    easing = Easing(0.125, 0.25, 0.875, 1.0, knots)
+    span = replace(first.span, easing=easing, placement="centroid", exposures=(3, 1, 2))
+    style = replace(first.drawing.style, opacity=0.5)
+    first = replace(first, span=span, drawing=replace(first.drawing, style=style), smooth=True)
+    middle = replace(middle, span=replace(middle.span, hold=True, step=1000))
+    wing = replace(wing, keyframes=(first, middle, *rest), locked=True, opacity=0.25, color="#00ff0080")
+    front = replace(front, parent=3, opacity=0.0)
+    return replace(old, layers=(old.layers[0], wing, front))
