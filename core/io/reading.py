@@ -106,7 +106,7 @@ def _listed(
     if raw is msgspec.UNSET:
         return []
     with place(f"{where}.{what}"):
-        budget.take(what, -(-_commas(raw) // numbers))
+        budget.take(what, (_commas(raw) + 1) // numbers)
     listed: list[Any] = decoded_at(raw, list[kind], f"{where}.{what}")
     return listed
 

@@ -17,7 +17,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 from measure import peak_mb
 
 STAGE = b'"stage":{"width":9,"height":9,"background":null},"rate":[24,1],"length":9,'
-HEAD = b'{"format":"inkbetween","version":1,' + STAGE
+HEAD = b'{"format":"inkbetween","version":2,' + STAGE
 STYLE = b'{"fill":null,"stroke":null,"width":0}'
 SPAN = b'{"method":"auto","easing":[0,0,1,1],"turns":0,"pairs":[]}'
 FRAME = b'{"frame":%d,"drawing":{"style":' + STYLE + b',"outlines":[%s]},"span":' + SPAN + b"}"
@@ -81,6 +81,24 @@ def cases():
                 ),
             )
         ),
+        "120 MB of knots": lambda: film(
+            keyframe(b"", SPAN[:-1] + b',"knots":[' + b"[0,0,0,0,0,0]," * (8 * megabyte) + b"[0,0,0,0,0,0]]}")
+        ),
+        "120 MB of exposures": lambda: film(
+            keyframe(b"", SPAN[:-1] + b',"exposures":[' + b"1," * (60 * megabyte) + b"1]}")
+        ),
+        "1000 layers that follow each other": lambda: (
+            HEAD
+            + b'"layers":['
+            + b",".join(
+                b'{"id":%d,"name":"","visible":true,"keyframes":[],"parent":%d}' % (i + 1, (i + 1) % 1000 + 1)
+                for i in range(1000)
+            )
+            + b"]}"
+        ),
+        "exactly the most vertices, in version 1": lambda: film(
+            keyframe(outline(1, b"[0,0]," * 1_999_999 + b"[1,1]"))
+        ).replace(b'"version":2', b'"version":1'),
         "a name of 120 MB": lambda: film(b"").replace(b'"name":""', b'"name":"' + b"x" * (120 * megabyte) + b'"'),
         "a method of 120 MB": lambda: film(square.replace(b"auto", b"x" * (120 * megabyte))),
         "a field named by 120 MB": lambda: film(square.replace(b'"turns"', b'"' + b"x" * (120 * megabyte) + b'"')),

@@ -10,10 +10,10 @@ from core.io.format import LIMITS, MOST_OBJECTS
 from core.io.project import decode, encode
 from core.model.document import Document, Keyframe, Layer
 from core.model.drawing import Drawing, Outline
-from tests.core.io.films import everything_of_version_1
+from tests.core.io.films import everything_of_version_2
 
 HERE = "layers[1].keyframes[0]"
-EVERYTHING = json.loads(encode(everything_of_version_1()))
+EVERYTHING = json.loads(encode(everything_of_version_2()))
 
 
 def with_limit(monkeypatch, what, most):
@@ -40,9 +40,9 @@ def counted(value, key):
     ],
 )
 def test_exactly_as_much_as_the_limit_opens_and_one_more_is_refused_with_its_place(monkeypatch, what, key, where):
-    content, there = encode(everything_of_version_1()), counted(EVERYTHING, key)
+    content, there = encode(everything_of_version_2()), counted(EVERYTHING, key)
     with_limit(monkeypatch, what, there)
-    assert decode(content) == everything_of_version_1()
+    assert decode(content) == everything_of_version_2()
     with_limit(monkeypatch, what, there - 1)
     with pytest.raises(FileFormatError) as error:
         decode(content)
@@ -54,11 +54,13 @@ def test_exactly_as_much_as_the_limit_opens_and_one_more_is_refused_with_its_pla
     [
         ("anchors", 2, f"{HERE}.span.pairs[0].anchors"),
         ("anchors", 3, f"{HERE}.span.pairs[1].anchors"),
+        ("knots", 1, f"{HERE}.span.knots"),
+        ("exposures", 2, f"{HERE}.span.exposures"),
         ("positions", 2, f"{HERE}.span.pairs[0].correspondence.before"),
     ],
 )
 def test_lists_inside_pairs_are_counted_too(monkeypatch, what, most, where):
-    content = encode(everything_of_version_1())
+    content = encode(everything_of_version_2())
     with_limit(monkeypatch, what, most)
     with pytest.raises(FileFormatError, match=f"more than {most} {what}") as error:
         decode(content)
@@ -66,8 +68,8 @@ def test_lists_inside_pairs_are_counted_too(monkeypatch, what, most, where):
 
 
 def test_what_could_not_be_read_again_is_not_written(monkeypatch):
-    document = everything_of_version_1()
-    for what in ("vertices", "outlines", "keyframes", "layers", "anchors", "positions"):
+    document = everything_of_version_2()
+    for what in ("vertices", "outlines", "keyframes", "layers", "anchors", "positions", "knots", "exposures"):
         with monkeypatch.context() as small:
             with_limit(small, what, 1)
             with pytest.raises(FileFormatError, match=f"more than 1 {what} in all"):
@@ -80,7 +82,7 @@ def test_what_could_not_be_read_again_is_not_written(monkeypatch):
 )
 def test_more_parts_than_any_project_has_are_refused_at_once(part):
     with pytest.raises(FileFormatError, match="more than 500,000 parts"):
-        decode(b'{"format":"inkbetween","version":1,"layers":[' + part * (MOST_OBJECTS + 1))
+        decode(b'{"format":"inkbetween","version":2,"layers":[' + part * (MOST_OBJECTS + 1))
 
 
 def test_ten_thousand_outlines_with_pairs_and_one_id_twice_are_told_in_a_moment():
@@ -99,7 +101,7 @@ def test_ten_thousand_outlines_with_pairs_and_one_id_twice_are_told_in_a_moment(
 
 @pytest.mark.parametrize("number", ["1e999", "-1e999", "1" * 5000])
 def test_numbers_too_large_are_refused_with_their_place(number):
-    content = encode(everything_of_version_1()).replace(b"[0.5,0.0]", f"[{number},0.0]".encode())
+    content = encode(everything_of_version_2()).replace(b"[0.5,0.0]", f"[{number},0.0]".encode())
     with pytest.raises(FileFormatError) as error:
         decode(content)
     assert f"`$.{HERE}.drawing.outlines[0]" in str(error.value)
@@ -107,20 +109,22 @@ def test_numbers_too_large_are_refused_with_their_place(number):
 
 @pytest.mark.parametrize("number", ["1e-9999999999", "0." + "1" * 100_000, "0e999"])
 def test_numbers_with_more_digits_than_count_are_rounded(number):
-    content = encode(everything_of_version_1()).replace(b"[0.5,0.0]", f"[{number},0.0]".encode())
+    content = encode(everything_of_version_2()).replace(b"[0.5,0.0]", f"[{number},0.0]".encode())
     first = decode(content).layers[1].keyframes[0].drawing.outlines[0].points[0]
     assert first[0] == float(number)
 
 
 def test_more_muted_anchors_than_there_are_is_refused_before_they_are_read():
-    content = encode(everything_of_version_1()).replace(b'"muted":[0,2]', b'"muted":[' + b"0," * 10_000 + b"0]")
+    content = encode(everything_of_version_2()).replace(b'"muted":[0,2]', b'"muted":[' + b"0," * 10_000 + b"0]")
     with pytest.raises(FileFormatError, match=r"there are 3 anchors; more are muted - at .*pairs\[0\].muted`"):
         decode(content)
 
 
-@pytest.mark.parametrize("place", [b"[[0.5,0.0]", b'"anchors":[', b'"muted":[', b'"before":[0.0'])
+@pytest.mark.parametrize(
+    "place", [b"[[0.5,0.0]", b'"knots":[', b'"exposures":[', b'"anchors":[', b'"muted":[', b'"before":[0.0']
+)
 def test_deep_lists_are_refused_wherever_they_stand(place):
-    content = encode(everything_of_version_1()).replace(place, place + b"," + b"[" * 100_000, 1)
+    content = encode(everything_of_version_2()).replace(place, place + b"," + b"[" * 100_000, 1)
     with pytest.raises(FileFormatError):
         decode(content)
 
