@@ -51,6 +51,9 @@ ACTIONS: tuple[ActionSpec, ...] = (
     _line("File"),
     ActionSpec("file.save", "File", "Save", ("Ctrl+S",), "save"),
     ActionSpec("file.save_as", "File", "Save As…", ("Ctrl+Shift+S",)),
+    ActionSpec("file.revert", "File", "Revert to Saved", tip="Take what is in the file; undo takes it back"),
+    ActionSpec("file.backup", "File", "Restore Backup", tip="Take the version before the last save"),
+    ActionSpec("file.recover", "File", "Recover Unsaved Work…", tip="What was not saved when Inkbetween ended"),
     _line("File"),
     ActionSpec("file.stage", "File", "Stage…", (), "settings", tip="Size and colour of the paper"),
     ActionSpec(

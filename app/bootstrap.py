@@ -1,12 +1,11 @@
 """The one place that builds everything and connects it."""
 
-import signal
 import sys
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QSize, Qt, QTimer
+from PySide6.QtCore import QObject, QSize, Qt
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QIcon
-from PySide6.QtWidgets import QApplication, QMenu
+from PySide6.QtWidgets import QApplication
 
 import resources
 from app import editing, matching
@@ -17,11 +16,14 @@ from app.dialogs.stage import StageDialog
 from app.editing import Clipboard
 from app.files import Files
 from app.incoming import Incoming
+from app.menus import fill_recent, fill_samples, show_key_menu
 from app.playback import Playback
 from app.preview.alternatives import AlternativesPreview
 from app.preview.certificates import CertificatePreview
 from app.preview.prefetch import Prefetch
 from app.preview.spans import SpanPreview
+from app.recovery import state_folder
+from app.safekeeping import Safekeeping
 from app.session import Selection, Session
 from app.settings import Settings
 from app.theme import icon, palette, system_theme
@@ -52,7 +54,8 @@ METHOD_ACTIONS = {
 class Editor(QObject):
     """Everything of one open window."""
 
-    def __init__(self, settings: Settings | None = None) -> None:
+    def __init__(self, settings: Settings | None = None, state: Path | None = None) -> None:
+        """`state` is the folder for unsaved work; without one none is kept."""
         super().__init__()
         self.settings = settings or Settings()
         self.session = Session(self)
@@ -75,6 +78,7 @@ class Editor(QObject):
             theme,
         )
         self.files = Files(self.window, self.session, self.settings, self.preview.with_answers, self.window.tell)
+        self.safekeeping = Safekeeping(self.window, self.session, self.files, state)
         self.incoming = Incoming(self.window, self.session, self.settings)
         self.export_dialog: ExportDialog | None = None
         self.window.table.connect_all(self._runs())
@@ -82,7 +86,7 @@ class Editor(QObject):
         self.set_theme(self.settings.text("theme", "system"))
         self.window.choose_tool("tool.select")
         self._refresh()
-        self._make_samples_menu()
+        fill_samples(self.window.menus["Samples"], self.files.open_sample)
         self._restore_geometry()
 
     # actions
@@ -104,6 +108,9 @@ class Editor(QObject):
             "file.open": files.open,
             "file.save": files.save,
             "file.save_as": files.save_as,
+            "file.revert": files.reload,
+            "file.backup": files.restore_backup,
+            "file.recover": lambda: self.safekeeping.offer(asked=True),
             "file.stage": self.edit_stage,
             "file.import": self.incoming.import_svg,
             "file.import_layers": lambda: self.incoming.import_svg(as_layers=True),
@@ -217,14 +224,18 @@ class Editor(QObject):
         window.canvas.playPressed.connect(self.playback.toggle)
         methods = {action: method for method, action in METHOD_ACTIONS.items()}
         matching.try_methods_in(window.menus["Span"], methods, session, self.preview)
-        window.timeline.track.menuWanted.connect(self._show_key_menu)
+        window.timeline.track.menuWanted.connect(lambda _, place: show_key_menu(window, window.table, place))
         window.closeAsked.connect(self._on_close_asked)
         window.fileDropped.connect(lambda name: self.incoming.take(Path(name), self.files.open_path))
         window.canvas.references.unreadable.connect(session.problem, Qt.ConnectionType.QueuedConnection)
-        window.menus["File"].aboutToShow.connect(self._fill_recent)
+        window.menus["File"].aboutToShow.connect(
+            lambda: fill_recent(window.recent_menu, self.settings, self.files.open_path)
+        )
+        QGuiApplication.instance().applicationStateChanged.connect(self._on_application_state)
         hints = QGuiApplication.styleHints()
         hints.colorSchemeChanged.connect(self._on_color_scheme)
         window.show_title()
+        self._on_file_changed()
 
     def _on_document_changed(self) -> None:
         if not self.session.in_gesture:  # at every step of a drag the menus can wait for its end
@@ -264,7 +275,16 @@ class Editor(QObject):
             table["play.toggle"].setIcon(icon(text.lower(), self.window.theme))
         table["play.loop"].setChecked(self.playback.loop)
 
+    def _on_application_state(self, state: Qt.ApplicationState) -> None:
+        if (
+            state == Qt.ApplicationState.ApplicationActive
+        ):  # whoever comes back may have changed the file meanwhile
+            self.files.look()
+
     def _on_file_changed(self) -> None:
+        path = self.session.path
+        self.window.table["file.revert"].setEnabled(path is not None and self.session.is_modified)
+        self.window.table["file.backup"].setEnabled(path is not None)
         if self.session.undo_stack.count() == 0:
             self.playback.stop()
 
@@ -282,36 +302,6 @@ class Editor(QObject):
             app.setPalette(palette(theme))
         self.window.set_theme(theme)
         self._refresh()
-
-    # menus
-
-    def _make_samples_menu(self) -> None:
-        for path in resources.samples():
-            action = self.window.menus["Samples"].addAction(path.stem.capitalize())
-            action.triggered.connect(lambda _=False, p=path: self.files.open_sample(p))
-
-    def _fill_recent(self) -> None:
-        menu = self.window.recent_menu
-        menu.clear()
-        recent = self.settings.recent_files()
-        for path in recent:
-            action = menu.addAction(path.name)
-            action.setToolTip(str(path))
-            action.triggered.connect(lambda _=False, p=path: self.files.open_path(p))
-        menu.setEnabled(bool(recent))
-        if recent:
-            menu.addSeparator()
-            menu.addAction("Forget These").triggered.connect(self.settings.clear_recent)
-
-    def _show_key_menu(self, frame: int, place: object) -> None:
-        menu = QMenu(self.window)
-        for name in ("key.add", "key.copy", "key.delete"):
-            menu.addAction(self.window.table[name])
-        menu.addSeparator()
-        for name in ("edit.copy", "edit.paste"):
-            menu.addAction(self.window.table[name])
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        menu.popup(place)
 
     # dialogs
 
@@ -350,12 +340,16 @@ class Editor(QObject):
             self.window.resize(self.window.size().boundedTo(room - QSize(40, 80)))
 
     def _on_close_asked(self, event: QCloseEvent) -> None:
+        if self.files.writing:
+            self.files.then(self.window.close)
         if not self.files.may_leave():
             event.ignore()
             return
         if self.export_dialog is not None:
             self.export_dialog.close()
         self.incoming.stop()
+        self.safekeeping.stop()
+        self.files.stop()
         self.playback.stop()
         self.prefetch.stop()
         self.preview.stop()
@@ -381,15 +375,13 @@ def make_application() -> QApplication:
 def run(path: str | None = None, *, sample: bool = False) -> int:
     """Open the editor on a file, or on an empty document, and return its exit code when it is closed."""
     app = make_application()
-    editor = Editor()
-    if path is not None:
-        if sample:
-            editor.files.open_sample(Path(path))
-        else:
-            editor.files.open_path(Path(path))
+    state = state_folder()
+    editor = Editor(state=state)
     editor.window.show()
-    signal.signal(signal.SIGINT, lambda *_: editor.window.close())
-    beat = QTimer()  # Python sees Ctrl+C only when it runs now and then
-    beat.start(200)
-    beat.timeout.connect(lambda: None)
-    return app.exec()
+    with editor.safekeeping.watching(app, state):
+        if path is not None:
+            if sample:
+                editor.files.open_sample(Path(path))
+            else:
+                editor.files.open_path(Path(path))
+        return app.exec()
