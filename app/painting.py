@@ -282,7 +282,20 @@ def render_frame(
     background: Background = "stage",
     format: QImage.Format = QImage.Format.Format_ARGB32_Premultiplied,
 ) -> QImage:
-    """Return the picture of a frame.
+    """Return the picture of a frame; see `render_pictures`."""
+    color = document.stage.background if background == "stage" else background
+    return render_pictures(pictures_at(document, frame, plans), document.stage, size, color, format=format)
+
+
+def render_pictures(
+    pictures: Iterable[Picture],
+    stage: Stage,
+    size: QSize,
+    background: Color | None,
+    *,
+    format: QImage.Format = QImage.Format.Format_ARGB32_Premultiplied,
+) -> QImage:
+    """Return the picture of what the layers show.
 
     Drawings are cut off at the edges of the stage; where `size` has another shape, the margins get
     the background. `format` is any that QPainter paints on.
@@ -295,13 +308,12 @@ def render_frame(
     image = QImage(size, format)
     if image.isNull():
         raise StorageError(f"no memory for a picture of {size.width()} x {size.height()} px; choose a smaller one")
-    color = document.stage.background if background == "stage" else background
-    image.fill(to_qcolor(color) if color else Qt.GlobalColor.transparent)
-    transform = stage_transform(document.stage, size)
+    image.fill(to_qcolor(background) if background else Qt.GlobalColor.transparent)
+    transform = stage_transform(stage, size)
     painter = QPainter(image)
     try:
-        painter.setClipRect(transform.mapRect(QRectF(0, 0, document.stage.width, document.stage.height)))
-        paint_frame(painter, pictures_at(document, frame, plans), transform)
+        painter.setClipRect(transform.mapRect(QRectF(0, 0, stage.width, stage.height)))
+        paint_frame(painter, pictures, transform)
     finally:
         painter.end()  # an image that dies under an active painter takes the program with it
     return image
