@@ -67,7 +67,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
         ("Ctrl+Shift+I",),
         tip="Add an SVG drawing as new layers, one for each style, with a keyframe at the playhead",
     ),
-    ActionSpec("file.export", "File", "Export Frames…", ("Ctrl+E",), "export"),
+    ActionSpec("file.export", "File", "Export…", ("Ctrl+E",), "export"),
     _line("File"),
     ActionSpec("file.close", "File", "Close", ("Ctrl+W",)),
     ActionSpec("file.quit", "File", "Quit", ("Ctrl+Q",)),

@@ -106,7 +106,7 @@ class Editor(QObject):
             "file.stage": self.edit_stage,
             "file.import": self.incoming.import_svg,
             "file.import_layers": lambda: self.incoming.import_svg(as_layers=True),
-            "file.export": self.export_frames,
+            "file.export": self.export,
             "file.close": files.new,
             "file.quit": self.window.close,
             "help.keys": lambda: show_keys(window, window.tools.values()),
@@ -316,14 +316,15 @@ class Editor(QObject):
         if dialog.exec():
             self.session.apply("Change Stage", set_stage, dialog.stage)
 
-    def export_frames(self) -> None:
+    def export(self) -> None:
         """Open the export dialog, or bring the one at work to the front."""
-        if self.export_dialog is not None and self.export_dialog.job is not None:
+        if self.export_dialog is not None:
             self.export_dialog.raise_()
+            self.export_dialog.activateWindow()
             return
         folder = self.session.path.parent if self.session.path else Path.home()
         name = self.session.name
-        dialog = ExportDialog(self.session.document, name, folder / f"{name} frames", self.window)
+        dialog = ExportDialog(lambda: self.session.document, name, folder, self.settings, self.window)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.told.connect(self.window.tell)
         dialog.destroyed.connect(self._forget_dialog)

@@ -4,10 +4,11 @@ Not part of the test run: it needs Chromium and lottie-web. From the root:
 
     sudo apt install chromium
     npm install --prefix build/players lottie-web
-    python tests/browser/players.py --lottie build/players/node_modules/lottie-web/build/player/lottie.js
+    python tests/browser/players.py --lottie PLAYER
 
-For every film, format and frame it prints the intersection over union of what is more opaque than not, and the mean
-difference of the channels; it ends with 1 if an IoU is below 0.98.
+where PLAYER is build/players/node_modules/lottie-web/build/player/lottie.min.js. For every film,
+format and frame it prints the intersection over union of what is more opaque than not, and the mean difference of
+the channels; it ends with 1 if an IoU is below 0.98.
 """
 
 import argparse
