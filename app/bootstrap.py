@@ -2,6 +2,7 @@
 
 import signal
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QSize, Qt, QTimer
@@ -9,7 +10,7 @@ from PySide6.QtGui import QCloseEvent, QGuiApplication, QIcon
 from PySide6.QtWidgets import QApplication, QMenu
 
 import resources
-from app import editing, matching
+from app import copying, editing, matching
 from app.canvas.reference import current_reference
 from app.dialogs.export import ExportDialog
 from app.dialogs.help import show_about, show_keys
@@ -120,11 +121,17 @@ class Editor(QObject):
             "edit.redo": session.undo_stack.redo,
             "edit.cut": lambda: editing.cut(session, clipboard),
             "edit.copy": lambda: editing.copy(session, clipboard),
+            "edit.copy_picture": lambda: self._tell_copied(copying.copy_picture, "picture"),
+            "edit.copy_svg": lambda: self._tell_copied(copying.copy_svg, "SVG"),
             "edit.paste": lambda: editing.paste(session, clipboard),
             "edit.delete": lambda: editing.delete(session),
             "edit.select_all": lambda: editing.select_all(session),
             "edit.select_none": lambda: session.select(Selection()),
         }
+
+    def _tell_copied(self, copy: Callable[[Session, PlanCache], bool], what: str) -> None:
+        if copy(self.session, self.plans):
+            self.window.tell(f"Frame {self.session.frame} is on the clipboard as {what}.", "info")
 
     def _insert_runs(self):
         return {

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 
 from app.export.formats import FORMATS
 from app.export.presets import BACKGROUNDS, Preset, rate_of
-from app.export.settings import ExportSettings, fitting_size
+from app.export.settings import PATTERN, ExportSettings, fitting_size
 from app.panels.parts import label, number_field
 from core.model.document import LARGEST_STAGE, LONGEST, Document
 
@@ -75,6 +75,7 @@ class ExportFields(QWidget):
             self.depth.addItem(f"{bits} bits", bits)
         self.depth.setToolTip("Bits a channel of PNG")
         self.pattern = QLineEdit()
+        self.pattern.setPlaceholderText(PATTERN)
         self.pattern.setToolTip("Of {name} {layer} {frame} {drawing} {separator}; empty: the usual one")
         self.separator = QLineEdit(".")
         self.separator.setFixedWidth(40)
@@ -204,6 +205,7 @@ class ExportFields(QWidget):
         form = FORMATS[self.format.currentData()]
         for widget in self._of_frames:
             self._form.setRowVisible(widget, form.frames)
+        self._form.setRowVisible(self.name, not form.moving)
         self.depth.setVisible(form.deep)
         self.rate.setEnabled(form.frames or form.moving or form.id == "sprites")
         if not self.rate.isEnabled():
