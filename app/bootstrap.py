@@ -326,7 +326,6 @@ class Editor(QObject):
     def export(self) -> None:
         """Open the export dialog, or bring the one at work to the front."""
         if self.export_dialog is not None:
-            self.export_dialog.raise_()
             self.export_dialog.activateWindow()
             return
         folder = self.session.path.parent if self.session.path else Path.home()

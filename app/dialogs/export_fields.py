@@ -41,7 +41,7 @@ class ExportFields(QWidget):
         self.show_document(document)
         self.first.setValue(1)
         self.last.setValue(document.length)
-        self.apply(Preset(background="none" if document.stage.background is None else "stage"))
+        self.apply(Preset())
         self._connect()
 
     # making them
