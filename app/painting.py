@@ -7,7 +7,7 @@ tell. So vertices are mapped to device px by numpy first, and thinned there.
 import math
 from collections import OrderedDict
 from collections.abc import Callable, Iterable, Sequence
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -19,7 +19,9 @@ from core.errors import StorageError
 from core.geometry.outline import FloatArray
 from core.model.document import Document, Stage
 from core.model.drawing import Color
-from core.model.inbetweens import Picture, PlanCache, pictures_at
+
+if TYPE_CHECKING:  # solving brings scipy with it; a process that only paints need not wait for that
+    from core.model.inbetweens import Picture, PlanCache
 
 Outlines = Sequence[tuple[FloatArray, bool]]
 Background = Literal["stage"] | Color | None
@@ -242,7 +244,7 @@ def _enter_device(painter: QPainter) -> QTransform:
     return surface
 
 
-def paint_picture(painter: QPainter, picture: Picture, transform: QTransform) -> None:
+def paint_picture(painter: QPainter, picture: "Picture", transform: QTransform) -> None:
     """Paint what one layer shows in its own style; the stroke grows with `transform`."""
     style = picture.style
     paint_outlines(
@@ -259,7 +261,7 @@ def _scale(transform: QTransform) -> float:
     return math.sqrt(abs(transform.determinant()))
 
 
-def paint_frame(painter: QPainter, pictures: Iterable[Picture], transform: QTransform) -> None:
+def paint_frame(painter: QPainter, pictures: "Iterable[Picture]", transform: QTransform) -> None:
     """Paint the layers of a frame, from the back to the front."""
     for picture in pictures:
         paint_picture(painter, picture, transform)
@@ -277,18 +279,20 @@ def render_frame(
     document: Document,
     frame: float,
     size: QSize,
-    plans: PlanCache,
+    plans: "PlanCache",
     *,
     background: Background = "stage",
     format: QImage.Format = QImage.Format.Format_ARGB32_Premultiplied,
 ) -> QImage:
     """Return the picture of a frame; see `render_pictures`."""
+    from core.model.inbetweens import pictures_at
+
     color = document.stage.background if background == "stage" else background
     return render_pictures(pictures_at(document, frame, plans), document.stage, size, color, format=format)
 
 
 def render_pictures(
-    pictures: Iterable[Picture],
+    pictures: "Iterable[Picture]",
     stage: Stage,
     size: QSize,
     background: Color | None,

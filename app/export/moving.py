@@ -73,14 +73,14 @@ class Codec:
 
 CODECS = {
     "gif": Codec("gif", "gif", "pal8", {"gifflags": "+transdiff"}, {"loop": "0"}),
-    "apng": Codec("apng", "apng", "rgba", {"pred": "sub"}, {"plays": "0"}),
+    "apng": Codec("apng", "apng", "rgba", {"pred": "none", "compression_level": "1"}, {"plays": "0"}),
     "webp": Codec("webp", "libwebp_anim", "bgra", {"lossless": "1", "compression_level": "2"}, {"loop": "0"}),
     "mp4": Codec("mp4", "libx264", "yuv420p", {"crf": "15", "preset": "medium"}, video=True, threads=1),
     "webm": Codec(
         "webm",
         "libvpx-vp9",
         "yuva420p",
-        {"crf": "0", "b": "0", "auto-alt-ref": "0", "row-mt": "0", "cpu-used": "2"},
+        {"crf": "0", "b": "0", "auto-alt-ref": "0", "row-mt": "0", "cpu-used": "6"},
         video=True,
         tags={"alpha_mode": "1"},
     ),
@@ -88,7 +88,7 @@ CODECS = {
         "mov",
         "prores_ks",
         "yuva444p10le",
-        {"profile": "4444", "vendor": "apl0", "alpha_bits": "16"},
+        {"profile": "4444", "vendor": "apl0", "alpha_bits": "16", "global_quality": "472"},
         {},
         True,
         True,

@@ -35,6 +35,8 @@ def write(film: Film, path: Path, told: Callable[[object], object], cancelled: C
         if not _fill(film, part, path.stem, told, cancelled):
             return False
         _take_place(part, path)
+    except StorageError as e:  # of a file in the folder under its other name
+        raise StorageError(str(e).replace(str(part), str(path))) from e
     except OSError as e:
         raise StorageError(f"cannot write {path}: {reason(e)}") from e
     finally:

@@ -1,8 +1,8 @@
 """Pictures painted side by side and handed back in their order.
 
-QPainter holds the interpreter, so threads would wait for each other: each painter is a process of its own. Where
-there is little to paint, starting one takes longer than painting, and the calling thread paints, while other
-threads encode.
+QPainter holds the interpreter, so threads would wait for each other: each painter is a process of its own. Until
+the first one is up, and where there is too little to paint to start any, the calling thread paints while others
+encode.
 """
 
 import contextlib
@@ -25,7 +25,7 @@ MOST_PAINTERS = 8
 MOST_ENCODERS = 4
 PIXELS_IN_FLIGHT = 48_000_000
 """Pictures rendered and not yet written hold up to 12 bytes a pixel: half a gigabyte at most."""
-WORTH_A_PROCESS = 40_000_000
+WORTH_A_PROCESS = 80_000_000
 """Pixels in all; fewer are painted in the time that a process takes to start."""
 STOPPED = InkbetweenError(
     "a process that painted has ended before its time; is the memory full? Try a smaller size, or one process"
@@ -87,16 +87,22 @@ class _Processes:
     def __init__(self, look: Look, count: int) -> None:
         self.count = count
         self._look = look
+        self._meanwhile = _Threads(look)
+        self._up = threading.Event()
         self._jobs: queue.SimpleQueue[tuple[Job, Future[bytes]] | None] = queue.SimpleQueue()
         self._started: list[subprocess.Popen[bytes]] = []
+        self._ready: list[subprocess.Popen[bytes]] = []
+        with contextlib.suppress(OSError):  # where none can be started, the calling thread paints on
+            for _ in range(count):
+                self._start()
         self._threads = [
-            threading.Thread(target=self._serve, args=(self._start(),), name=f"export painter {i}", daemon=True)
-            for i in range(count)
+            threading.Thread(target=self._serve, args=(p,), name="export painter", daemon=True)
+            for p in self._started
         ]
         for thread in self._threads:
             thread.start()
 
-    def _start(self) -> "subprocess.Popen[bytes]":
+    def _start(self) -> None:
         command = [sys.executable, "-P", "-c", "from app.export.worker import main; main()"]
         environment = os.environ | {"PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
         painter = subprocess.Popen(
@@ -108,22 +114,26 @@ class _Processes:
             start_new_session=True,  # Ctrl+C is for the program that started it
         )
         self._started.append(painter)
-        return painter
 
     def submit(self, job: Job) -> Future[bytes]:
+        if not self._up.is_set():
+            return self._meanwhile.submit(job)
         future: Future[bytes] = Future()
         self._jobs.put((job, future))
         return future
 
     def _serve(self, painter: "subprocess.Popen[bytes]") -> None:
-        """Carry jobs to one process and its answers back; where it never came up, paint in this thread."""
-        ready = self._is_ready(painter)
+        """Carry jobs to one process and its answers back; one that never comes up is not asked."""
+        if not self._is_ready(painter):
+            return
+        self._ready.append(painter)
+        self._up.set()
         while (taken := self._jobs.get()) is not None:
             job, future = taken
             if not future.set_running_or_notify_cancel():
                 continue
             try:
-                answer = _asked(painter, job) if ready else finish(paint(job, self._look), job, self._look)
+                answer = _asked(painter, job)
             except (OSError, EOFError, ValueError) as e:
                 if not isinstance(e, InkbetweenError):
                     _forget_part(job, painter.pid)
@@ -146,10 +156,14 @@ class _Processes:
                 taken = self._jobs.get_nowait()
                 if taken is not None:
                     taken[1].cancel()
+        for painter in self._started:
+            if painter not in self._ready:
+                painter.kill()  # it has not begun yet, and nobody waits for it any more
         for _ in self._threads:
             self._jobs.put(None)
         for thread in self._threads:
             thread.join()
+        self._meanwhile.close()
         for painter in self._started:
             for stream in (painter.stdin, painter.stdout):
                 with contextlib.suppress(OSError):
@@ -159,7 +173,7 @@ class _Processes:
 
 def _asked(painter: "subprocess.Popen[bytes]", job: Job) -> bytes:
     """Return what a process makes of a job; raises EOFError or OSError if it has ended."""
-    send(painter.stdin, DONE, pickle.dumps(job))
+    send(painter.stdin, DONE, pickle.dumps(job.light()))
     kind, body = receive(painter.stdout)
     if kind != DONE:
         error, text = pickle.loads(body)

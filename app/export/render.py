@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QImage
@@ -9,9 +10,12 @@ from PySide6.QtGui import QImage
 from app.export.png import channels_of, encode_png, straight_image
 from app.export.whole import write_whole
 from app.painting import render_pictures
+from core.geometry.outline import FloatArray
 from core.model.document import Stage
-from core.model.drawing import Color
-from core.model.inbetweens import Picture
+from core.model.drawing import Color, Style
+
+if TYPE_CHECKING:
+    from core.model.inbetweens import Picture
 
 EIGHT, SIXTEEN = "rgba", "rgba64le"
 """What FFmpeg calls the order and depth of the channels."""
@@ -42,11 +46,25 @@ class Look:
 
 
 @dataclass(frozen=True, slots=True)
+class Shown:
+    """What one layer shows, as a `Picture`; a process that unpacks this need not know how it was solved."""
+
+    outlines: tuple[tuple[FloatArray, bool], ...]
+    style: Style
+    opacity: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
 class Job:
     """One picture: written to `path` as PNG, or handed back as straight pixels if that is None."""
 
-    pictures: tuple[Picture, ...]
+    pictures: "tuple[Shown | Picture, ...]"
     path: Path | None = None
+
+    def light(self) -> "Job":
+        """Return the same job to be sent to another process."""
+        shown = (Shown(p.outlines, p.style, getattr(p, "opacity", 1.0)) for p in self.pictures)
+        return Job(tuple(shown), self.path)
 
 
 def paint(job: Job, look: Look) -> QImage:

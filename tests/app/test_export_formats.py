@@ -183,11 +183,24 @@ def test_the_same_film_gives_the_same_bytes(form, tmp_path):
     assert sorted(names) == sorted(p.name for p in (tmp_path / "b").iterdir())
 
 
-def test_two_processes_give_the_bytes_of_one(tmp_path):
+def test_two_processes_give_the_bytes_of_one(tmp_path, monkeypatch):
     document = moving_film()
+    wait_until_up(monkeypatch)
     for form in ("png", "mp4"):
         one, two = (made(document, tmp_path / f"{form}{n}", form, processes=n) for n in (1, 2))
         assert digest(one) == digest(two)
+
+
+def wait_until_up(monkeypatch):
+    """Let processes paint from the first picture on, and not only when they have come up."""
+    submit = pool._Processes.submit
+    monkeypatch.setattr(pool._Processes, "submit", lambda crew, job: crew._up.wait(30) and submit(crew, job))
+
+
+def test_a_painter_imports_neither_scipy_nor_the_window():
+    script = "import sys, app.export.worker, app.export.render; print(' '.join(sys.modules))"
+    ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=ROOT, check=True)
+    assert not set(ended.stdout.split()) & {"scipy", "PySide6.QtWidgets", "pyqtgraph", "av"}
 
 
 # Nothing is overwritten, nothing is half
@@ -299,24 +312,19 @@ def test_an_interrupted_export_is_continued_with_the_missing_frames_only(tmp_pat
     assert digest(out) == digest(whole_film)
 
 
-def test_a_painter_that_dies_is_one_sentence_and_leaves_nothing(tmp_path):
+def test_a_painter_that_dies_is_one_sentence_and_leaves_nothing(tmp_path, monkeypatch):
     document = film(length=400, size=(640, 480))
-    started = []
-    start = pool._Processes._start
-    pool_start = lambda self: started.append(start(self)) or started[-1]  # noqa: E731
+    crews = []
+    begin = pool._Processes.__init__
+    monkeypatch.setattr(pool._Processes, "__init__", lambda self, *a: (crews.append(self), begin(self, *a))[1])
 
     def progress(done, total):
-        if done == 3:
-            for painter in started:
-                painter.kill()
+        for painter in crews[0]._ready:
+            painter.kill()
 
-    pool._Processes._start = pool_start
-    try:
-        with pytest.raises(InkbetweenError, match="a process that painted has ended before its time"):
-            export(document, settings_of(document, tmp_path, "png", processes=2), progress=progress)
-    finally:
-        pool._Processes._start = start
-    assert [p.poll() is not None for p in started] == [True, True]
+    with pytest.raises(InkbetweenError, match="a process that painted has ended before its time"):
+        export(document, settings_of(document, tmp_path, "png", processes=2), progress=progress)
+    assert [p.poll() is not None for p in crews[0]._started] == [True, True]
     assert all(n.endswith(".png") and not n.startswith("arm/.") for n in files_in(tmp_path))
 
 
