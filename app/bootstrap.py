@@ -107,6 +107,8 @@ class Editor(QObject):
             "file.stage": self.edit_stage,
             "file.import": self.incoming.import_svg,
             "file.import_layers": lambda: self.incoming.import_svg(as_layers=True),
+            "file.import_folder": self.incoming.import_folder,
+            "file.import_lottie": self.incoming.import_lottie,
             "file.export": self.export,
             "file.close": files.new,
             "file.quit": self.window.close,

@@ -20,7 +20,7 @@ commands:
   demo                  open the editor on a sample; without a display, export the sample's frames
   export FILE OUT       write numbered pictures, a film, a sheet, Lottie and more
   info FILE             say what is in a project
-  new BEFORE AFTER      make a project of two SVG drawings
+  new BEFORE [AFTER]    make a project of SVG drawings or of a Lottie animation
 
 options:
   -h, --help            show this and exit

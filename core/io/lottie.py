@@ -26,6 +26,9 @@ from core.model.document import LONGEST, Keyframe, OutlinePair, Span
 from core.model.drawing import WIDEST_STROKE, Drawing, Outline, Style
 from core.model.easing import Easing
 
+HELD = Span("linear")
+"""The drawing stays until the next keyframe."""
+
 LARGEST_FILE = 64 * 1024 * 1024
 MOST_VERTICES = 5_000_000
 DEEPEST = 50
@@ -295,8 +298,8 @@ class _Reader:
             return ()
         pairs = _pairs(drawings[0])
         keyframes = [
-            Keyframe(round(t + shift - self._first) + 1, d, replace(s, pairs=() if s.hold else pairs))
-            for t, d, s in zip(times, drawings, [*spans, Span("linear", hold=True)], strict=True)
+            Keyframe(round(t + shift - self._first) + 1, d, replace(s, pairs=() if s is HELD else pairs))
+            for t, d, s in zip(times, drawings, [*spans, HELD], strict=True)
         ]
         return self._closed_off(keyframes, end)
 
@@ -305,8 +308,8 @@ class _Reader:
         last = round(end - self._first) + 1
         if end < self._last:
             keyframes = [k for k in keyframes if k.frame < last]
-            keyframes[-1] = replace(keyframes[-1], span=Span("linear", hold=True))
-            keyframes.append(Keyframe(last, Drawing(), Span("linear", hold=True)))
+            keyframes[-1] = replace(keyframes[-1], span=HELD)
+            keyframes.append(Keyframe(last, Drawing(), HELD))
         return tuple(keyframes)
 
     def _times(self, shape: _Shape, start: float, end: float) -> list[float]:
@@ -330,7 +333,7 @@ class _Reader:
         moving = [keys for keys in _all_keys(shape) if len(keys) > 1]
         here = [k for keys in moving for k, n in pairwise(keys) if k.time <= start and n.time >= end]
         if all(k.held for k in here):
-            return Span("linear", hold=True)
+            return HELD
         easings = {k.easing for keys in moving for k, n in pairwise(keys) if (k.time, n.time) == (start, end)}
         return Span("linear", easings.pop() if len(easings) == 1 and len(here) == 1 else Easing())
 
@@ -410,7 +413,8 @@ def _pairs(drawing: Drawing) -> tuple[OutlinePair, ...]:
     found = []
     for outline in drawing.outlines:
         count = len(outline.points)
-        same = Correspondence(np.arange(count), np.arange(count), (count, count), outline.closed)
+        places = np.arange(count, dtype=np.float64)
+        same = Correspondence(places, places, (count, count), outline.closed)
         found.append(OutlinePair(outline.id, outline.id, (), same, chosen=True))
     return tuple(found)
 

@@ -60,10 +60,10 @@ def _between(shapes: list[Bezier], index: int, share: float) -> Bezier:
 def _bezier(value: Any) -> Bezier:
     if isinstance(value, list):
         value = value[0]
-    parts = [_complex(value[name]) for name in ("v", "i", "o")]
-    if len({len(p) for p in parts}) > 1 or not len(parts[0]):
+    places, into, out = (_complex(value[name]) for name in ("v", "i", "o"))
+    if not len(places) == len(into) == len(out) > 0:
         raise FileFormatError("a path has not as many handles as vertices")
-    return Bezier(*parts, bool(value.get("c", False)))
+    return Bezier(places, into, out, bool(value.get("c", False)))
 
 
 def _complex(points: Any) -> ComplexArray:

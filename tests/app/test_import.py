@@ -150,7 +150,7 @@ def test_a_big_file_shows_its_progress_and_the_window_stays_awake(hand, big, qtb
 def test_escape_cancels_and_a_second_import_waits_its_turn(hand, big, sketch, qtbot) -> None:
     hand.editor.incoming.import_path(big)
     hand.editor.incoming.import_path(sketch)
-    assert hand.message.startswith("Another SVG is being read")
+    assert hand.message.startswith("Another file is being read")
     QTest.keyClick(hand.editor.incoming.import_dialog, Qt.Key.Key_Escape)
     arrived(hand, qtbot)
     assert "cancelled" in hand.message
