@@ -88,7 +88,7 @@ def _read_film(path: Path) -> "ImportedFilm":
     if path.suffix.lower() == ".json":
         return read_lottie(path)
     raise Problem(
-        f"{path} alone makes no film; name a second drawing, a folder of SVG or a Lottie animation (.json)"
+        f"{path} alone makes no film; name a second drawing, a folder of SVG, or a Lottie animation"
     )
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from core.errors import FileFormatError
 from core.geometry.curves import ComplexArray
@@ -117,6 +118,19 @@ def _rounded(middle: complex, half: FloatArray, radius: float) -> Bezier:
     return Bezier(middle + places, into, out, True)
 
 
+def _are_straight(curves: ComplexArray) -> npt.NDArray[np.bool_]:
+    """Whether each curve is a straight line at every time: its handles lie on the way from end to end."""
+    chord = curves[..., 3] - curves[..., 0]
+    first, last = curves[..., 1] - curves[..., 0], curves[..., 3] - curves[..., 2]
+    on_way = np.ones(chord.shape, dtype=bool)
+    for handle in (first, last):
+        along, aside = (handle * chord.conj()).real, (handle * chord.conj()).imag
+        square = np.abs(chord) ** 2
+        on_way &= (np.abs(aside) <= 1e-9 * square) & (along >= 0) & (along <= square)
+    found: npt.NDArray[np.bool_] = on_way.all(axis=0)
+    return found
+
+
 def polygons(shapes: list[Bezier], scale: float) -> list[FloatArray]:
     """Return a polygon for every time, all with the same number of vertices, in the same order.
 
@@ -127,6 +141,7 @@ def polygons(shapes: list[Bezier], scale: float) -> list[FloatArray]:
         np.abs(curves[..., 0] - 2 * curves[..., 1] + curves[..., 2]),
         np.abs(curves[..., 1] - 2 * curves[..., 2] + curves[..., 3]),
     ).max(axis=0)
+    bend[_are_straight(curves)] = 0.0
     counts = np.clip(np.ceil(np.sqrt(0.75 * bend * max(scale, 1e-9) / TOLERANCE)), 1, MOST_CHORDS).astype(int)
     parts = []
     for i, count in enumerate(counts.tolist()):
