@@ -8,7 +8,7 @@ from app.export.svg import frame_svg
 from app.painting import render_frame
 from app.session import Session
 from core.errors import InkbetweenError
-from core.model.inbetweens import PlanCache, pictures_at
+from core.model.motion import PlanCache, pictures_at
 
 SVG = "image/svg+xml"
 PNG = "image/png"

@@ -12,7 +12,7 @@ from core.geometry.outline import size
 from core.model.document import Document, Keyframe
 from core.model.drawing import Drawing, Outline
 from core.model.edits import add_outline, delete_keyframe, delete_vertices, put_drawing, set_span
-from core.model.inbetweens import PlanCache, picture_at
+from core.model.motion import PlanCache, picture_at
 
 PASTE_SHIFT = 12.0
 
@@ -111,7 +111,7 @@ def add_keyframe(session: Session, plans: PlanCache) -> None:
 
 def shown_drawing(session: Session, plans: PlanCache) -> Drawing | None:
     """Return what the active layer shows at the playhead as a drawing; before the first keyframe, that one."""
-    picture = picture_at(session.layer, session.frame, plans)
+    picture = picture_at(session.document, session.layer, session.frame, plans)
     if picture is None:
         keyframes = session.layer.keyframes
         return keyframes[0].drawing if keyframes else None

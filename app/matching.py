@@ -43,7 +43,7 @@ def _main(session: Session, preview: SpanPreview) -> tuple[int, Outline, Outline
     if made is not None and made.held:
         session.problem.emit("Anchors hold the start and the direction: move, mute or delete them instead.")
         return None
-    return before.frame, a, b, preview.correspondence(before, after, (a.id, b.id))
+    return before.frame, a, b, preview.correspondence(before, after, session.layer.id, (a.id, b.id))
 
 
 def _choose(session: Session, label: str, frame: int, a: Outline, b: Outline, c: Correspondence) -> None:

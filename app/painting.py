@@ -21,7 +21,8 @@ from core.model.document import Document, Stage
 from core.model.drawing import Color
 
 if TYPE_CHECKING:  # solving brings scipy with it; a process that only paints need not wait for that
-    from core.model.inbetweens import Picture, PlanCache
+    from core.model.inbetweens import Picture
+    from core.model.motion import HasMotions
 
 Outlines = Sequence[tuple[FloatArray, bool]]
 Background = Literal["stage"] | Color | None
@@ -245,16 +246,61 @@ def _enter_device(painter: QPainter) -> QTransform:
 
 
 def paint_picture(painter: QPainter, picture: "Picture", transform: QTransform) -> None:
-    """Paint what one layer shows in its own style; the stroke grows with `transform`."""
+    """Paint what one layer shows in its own style; the stroke grows with `transform`.
+
+    Where fill and stroke would show through each other they are painted in full on a picture of their own first.
+    """
+    if picture.opacity <= 0:
+        return
+    if picture.opacity < 1 and _overlaps_itself(picture):
+        _paint_through(painter, picture, transform)
+        return
+    painter.save()
+    painter.setOpacity(painter.opacity() * picture.opacity)
+    _paint_shapes(painter, picture, transform)
+    painter.restore()
+
+
+def _overlaps_itself(picture: "Picture") -> bool:
+    """Whether parts of a picture are painted on top of others."""
+    style, lines = picture.style, sum(not closed for _, closed in picture.outlines)
+    both = style.fill is not None and style.stroke is not None and style.width > 0
+    return (both and lines < len(picture.outlines)) or (lines > 0 and len(picture.outlines) > 1)
+
+
+def _paint_shapes(painter: QPainter, picture: "Picture", transform: QTransform) -> None:
+    """Paint closed outlines with fill and stroke, and open ones as strokes: they have no inside."""
     style = picture.style
-    paint_outlines(
-        painter,
-        picture.outlines,
-        fill=to_qcolor(style.fill) if style.fill else None,
-        stroke=to_qcolor(style.stroke) if style.stroke else None,
-        width=style.width * _scale(transform) * painter.device().devicePixelRatio(),
-        transform=transform,
-    )
+    width = style.width * _scale(transform) * painter.device().devicePixelRatio()
+    fill = to_qcolor(style.fill) if style.fill else None
+    stroke = to_qcolor(style.stroke) if style.stroke else None
+    areas = [x for x in picture.outlines if x[1]]
+    lines = [x for x in picture.outlines if not x[1]]
+    if areas:
+        paint_outlines(painter, areas, fill=fill, stroke=stroke, width=width, transform=transform)
+    if lines:
+        paint_outlines(painter, lines, fill=None, stroke=stroke or fill, width=width, transform=transform)
+
+
+def _paint_through(painter: QPainter, picture: "Picture", transform: QTransform) -> None:
+    """Paint a picture in full on a layer of its own, and that one thinly."""
+    clip = painter.clipBoundingRect() if painter.hasClipping() else QRectF(painter.viewport())
+    ratio = painter.device().devicePixelRatio()
+    area = clip.toAlignedRect()
+    if area.isEmpty():
+        return
+    layer = QImage(area.size() * ratio, QImage.Format.Format_ARGB32_Premultiplied)
+    layer.setDevicePixelRatio(ratio)
+    layer.fill(Qt.GlobalColor.transparent)
+    inner = QPainter(layer)
+    try:
+        _paint_shapes(inner, picture, transform * QTransform.fromTranslate(-area.x(), -area.y()))
+    finally:
+        inner.end()
+    painter.save()
+    painter.setOpacity(painter.opacity() * picture.opacity)
+    painter.drawImage(area.topLeft(), layer)
+    painter.restore()
 
 
 def _scale(transform: QTransform) -> float:
@@ -279,13 +325,13 @@ def render_frame(
     document: Document,
     frame: float,
     size: QSize,
-    plans: "PlanCache",
+    plans: "HasMotions",
     *,
     background: Background = "stage",
     format: QImage.Format = QImage.Format.Format_ARGB32_Premultiplied,
 ) -> QImage:
     """Return the picture of a frame; see `render_pictures`."""
-    from core.model.inbetweens import pictures_at
+    from core.model.motion import pictures_at
 
     color = document.stage.background if background == "stage" else background
     return render_pictures(pictures_at(document, frame, plans), document.stage, size, color, format=format)

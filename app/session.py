@@ -150,6 +150,8 @@ class Session(QObject):
     frameChanged = Signal(int)
     layerChanged = Signal()
     fileChanged = Signal()
+    soloChanged = Signal()
+    rangeChanged = Signal()
     gestureChanged = Signal(bool)
     problem = Signal(str)
 
@@ -163,6 +165,8 @@ class Session(QObject):
         self._frame = 1
         self._layer_id = 1
         self._gesture: Gesture | None = None
+        self._solo: frozenset[int] = frozenset()
+        self._range: tuple[int, int] | None = None
         self.path: Path | None = None
         self.title: str | None = None
 
@@ -200,6 +204,27 @@ class Session(QObject):
     def name(self) -> str:
         """The file's name without its suffix, for titles and exports."""
         return self.path.stem if self.path else (self.title or "untitled")
+
+    @property
+    def solo(self) -> frozenset[int]:
+        """Ids of the layers that are shown alone; of none: all visible ones are shown."""
+        return self._solo
+
+    @property
+    def range(self) -> tuple[int, int]:
+        """The first and the last frame that are played."""
+        last = self._document.length
+        first, end = self._range or (1, last)
+        return min(first, last), min(end, last)
+
+    @property
+    def has_range(self) -> bool:
+        """Whether only a part of the film is played."""
+        return self._range is not None
+
+    def shows(self, layer: Layer) -> bool:
+        """Whether a layer is seen in the window."""
+        return layer.id in self._solo if self._solo else layer.visible
 
     def span_keyframes(self) -> tuple[Keyframe | None, Keyframe | None]:
         """Return the keyframes around the playhead in the active layer."""
@@ -265,6 +290,7 @@ class Session(QObject):
         self._document = document
         if all(layer.id != self._layer_id for layer in document.layers):
             self._layer_id = document.layers[-1].id
+        self._solo &= {layer.id for layer in document.layers}
         valid = self._valid(self._selection)
         selection_changed = valid != self._selection
         self._selection = valid
@@ -298,6 +324,21 @@ class Session(QObject):
             self._layer_id = layer_id
             self.select(Selection())
             self.layerChanged.emit()
+
+    def set_solo(self, layer_ids: Iterable[int]) -> None:
+        """Show these layers alone, or, with none, all that are visible."""
+        solo = frozenset(layer_ids) & {layer.id for layer in self._document.layers}
+        if solo != self._solo:
+            self._solo = solo
+            self.soloChanged.emit()
+
+    def set_range(self, first_and_last: tuple[int, int] | None) -> None:
+        """Play from one frame to another, or, with None, the whole film."""
+        if first_and_last is not None:
+            first_and_last = (max(1, min(first_and_last)), max(first_and_last))
+        if first_and_last != self._range:
+            self._range = first_and_last
+            self.rangeChanged.emit()
 
     def _valid(self, selection: Selection) -> Selection:
         counts = {(k.frame, o.id): len(o.points) for k in self.layer.keyframes for o in k.drawing.outlines}
@@ -348,6 +389,7 @@ class Session(QObject):
             self._gesture.cancel()
         self.path, self.title = path, title
         self._selection = Selection()
+        self._solo, self._range = frozenset(), None
         self._layer_id = document.layers[-1].id
         diff = DocumentDiff(self._document, document)
         self._document = document

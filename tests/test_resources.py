@@ -12,7 +12,8 @@ from shapely.geometry import LinearRing, Polygon
 
 import resources
 from core.io.project import load
-from core.model.inbetweens import PlanCache, pictures_at, plan_span
+from core.model.inbetweens import plan_span
+from core.model.motion import PlanCache, pictures_at
 
 ROOT = Path(__file__).resolve().parent.parent
 NAMES = ("bending arm", "bird wing", "letter", "square to diamond", "walking leg")

@@ -30,7 +30,6 @@ from app.preview.spans import SpanPreview
 from app.session import Session
 from app.theme import Theme
 from app.view import ViewState
-from core.model.inbetweens import PlanCache
 
 ZOOM_STEP = 1.0015
 """Factor an eighth of a degree of the wheel: a notch of 120 zooms by a fifth."""
@@ -61,7 +60,6 @@ class Canvas(pg.GraphicsView):
         self.marked: tuple[tuple[float, float], str] | None = None
         self.thinner = Thinner()
         self.references = ReferencePictures(self)
-        self._plans = PlanCache()
         self._content: Content | None = None
         self._pin_marks: tuple[Content, tuple[PinMark, ...]] | None = None
         self._follows_stage = True
@@ -100,7 +98,7 @@ class Canvas(pg.GraphicsView):
 
     def _connect(self) -> None:
         s = self.session
-        for signal in (s.documentChanged, s.frameChanged, s.layerChanged, s.selectionChanged):
+        for signal in (s.documentChanged, s.frameChanged, s.layerChanged, s.selectionChanged, s.soloChanged):
             signal.connect(self._on_changed)
         for signal in (s.documentChanged, s.frameChanged, s.layerChanged):
             signal.connect(lambda _=None: self.mark(None))
@@ -115,7 +113,7 @@ class Canvas(pg.GraphicsView):
     def content(self) -> Content:
         """What is to be seen now; worked out when first asked for after a change."""
         if self._content is None:
-            self._content = build_content(self.session, self.preview, self._plans, self.view_state.options)
+            self._content = build_content(self.session, self.preview, self.view_state.options)
             if self._follows_stage:
                 papers = (self._content.papers, self._content.document.stage)
                 if papers != self._shown_papers:

@@ -10,9 +10,10 @@ from app.preview.spans import SpanPreview
 from app.session import OutlineRef, Session
 from app.view import ViewOptions
 from core.geometry.outline import FloatArray
-from core.model.document import Document, Keyframe, ratio_in_span
+from core.model.document import Document, Keyframe
 from core.model.drawing import Outline
-from core.model.inbetweens import Picture, PlanCache, SpanPlan, keyframe_picture, picture_at
+from core.model.inbetweens import Picture, SpanPlan
+from core.model.motion import SpanMotion, drawing_picture
 
 FILM_TIMES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 """As in the figures of the papers on shape blending."""
@@ -38,6 +39,8 @@ class Content:
     before, after : Keyframe or None
         Of the span under the playhead in the active layer.
     plan : SpanPlan or None
+    motion : SpanMotion or None
+        The span in time; like the plan, None in a hold.
     waiting : bool
         The plan stands in for one that is being solved.
     t : float or None
@@ -56,6 +59,7 @@ class Content:
     before: Keyframe | None
     after: Keyframe | None
     plan: SpanPlan | None
+    motion: SpanMotion | None
     waiting: bool
     t: float | None
     picture: Picture | None
@@ -80,21 +84,18 @@ class Content:
                         yield paper, side, (keyframe.frame, outline.id), outline
 
 
-def build_content(session: Session, preview: SpanPreview, plans: PlanCache, options: ViewOptions) -> Content:
+def build_content(session: Session, preview: SpanPreview, options: ViewOptions) -> Content:
     """Work out what is to be seen."""
     document, layer, frame = session.document, session.layer, session.frame
     before, after = session.span_keyframes()
-    plan = t = picture = None
-    if before is not None and after is not None:
-        plan = preview.plan(before, after)
-        t = _t_at(before, after, frame)
+    motion = None
+    if before is not None and after is not None and not before.span.hold:
+        motion = preview.motions.of(document, layer, before, after)
     key = layer.keyframe_at(frame)
     if key is not None:
-        picture = keyframe_picture(key.drawing)
-    elif plan is not None and t is not None:
-        picture = plan.picture(t)
-    elif before is not None:
-        picture = keyframe_picture(before.drawing)
+        picture = drawing_picture(key.drawing, layer.opacity)
+    else:
+        picture = preview.motions.picture(document, layer, frame)
     papers = papers_for("overlaid" if options.final else options.arrangement, document.stage)
     return Content(
         document,
@@ -103,28 +104,25 @@ def build_content(session: Session, preview: SpanPreview, plans: PlanCache, opti
         frame,
         before,
         after,
-        plan,
-        plan is not None and before is not None and preview.waiting(before),
-        t,
-        picture if layer.visible or not options.final else None,
-        _others(document, layer.id, frame, plans),
+        motion.shown_plan if motion is not None else None,
+        motion,
+        motion is not None and before is not None and preview.waiting(before, layer.id),
+        float(motion.times([frame])[0]) if motion is not None else None,
+        picture if session.shows(layer) or not options.final else None,
+        _others(session, preview),
         _onion(session, preview, options) if options.onion and not options.final else (),
-        _films(papers, before, after, preview),
+        _films(papers, session, preview),
     )
 
 
-def _t_at(before: Keyframe, after: Keyframe, frame: float) -> float:
-    return float(before.span.easing.t_at(ratio_in_span(before, after, frame)))
-
-
-def _others(document: Document, active: int, frame: int, plans: PlanCache) -> tuple[tuple[Picture, bool], ...]:
+def _others(session: Session, preview: SpanPreview) -> tuple[tuple[Picture, bool], ...]:
     found = []
     in_front = False
-    for layer in document.layers:
-        if layer.id == active:
+    for layer in session.document.layers:
+        if layer.id == session.layer.id:
             in_front = True
-        elif layer.visible:
-            picture = picture_at(layer, frame, plans)
+        elif session.shows(layer):
+            picture = preview.motions.picture(session.document, layer, session.frame)
             if picture is not None:
                 found.append((picture, in_front))
     return tuple(found)
@@ -154,27 +152,30 @@ def _layer_outlines(session: Session, preview: SpanPreview, frames: list[int]) -
         keyframe = session.layer.keyframe_at(frame)
         before, after = session.layer.around(frame)
         if keyframe is not None:
-            found[frame] = keyframe_picture(keyframe.drawing).outlines
+            found[frame] = drawing_picture(keyframe.drawing).outlines
+        elif before is not None and before.span.hold:
+            continue  # the drawing that is held is the keyframe's
         elif before is not None and after is not None:
             by_span.setdefault(before.frame, (before, after, []))[2].append(frame)
     for before, after, inside in by_span.values():
-        plan = preview.plan(before, after)
-        shapes = plan.frames([_t_at(before, after, frame) for frame in inside])
-        closed = [link.aligned.closed for link in plan.links]
+        motion = preview.motions.of(session.document, session.layer, before, after)
+        shapes = motion.frames(inside)
+        closed = [link.aligned.closed for link in motion.plan.links]
         for i, frame in enumerate(inside):
             found[frame] = tuple((s[i], c) for s, c in zip(shapes, closed, strict=True))
     return found
 
 
 def _films(
-    papers: tuple[Paper, ...], before: Keyframe | None, after: Keyframe | None, preview: SpanPreview
+    papers: tuple[Paper, ...], session: Session, preview: SpanPreview
 ) -> dict[Paper, tuple[OutlineShapes, ...]]:
+    before, after = session.span_keyframes()
     if before is None or after is None:
         return {}
     films = {}
     for paper in papers:
         if FILM in paper.shows:
-            plan = preview.plan(before, after, paper.method)
+            plan = preview.plan(before, after, session.layer.id, paper.method)
             frames = plan.frames(FILM_TIMES)
             closed = [link.aligned.closed for link in plan.links]
             films[paper] = tuple(

@@ -1,5 +1,6 @@
 """The ways that points take through the span: those of pins, and of vertices where they are wanted."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,9 +12,9 @@ from app.canvas.content import Content
 from app.canvas.items import CanvasItem, draw_dots
 from app.canvas.lines import MOST_LINES, shown_rows
 from app.canvas.papers import INBETWEEN, Paper
-from app.canvas.pins import PinMark, frame_times, pin_papers
+from app.canvas.pins import PinMark, pin_papers
 from core.geometry.outline import FloatArray
-from core.model.inbetweens import SpanPlan
+from core.model.motion import SpanMotion
 
 if TYPE_CHECKING:
     from app.canvas.canvas import Canvas
@@ -34,7 +35,7 @@ class PathsItem(CanvasItem):
 
     def draw(self, painter: QPainter, content: Content) -> None:
         options = content.options
-        if not options.paths or options.final or content.films or content.plan is None:
+        if not options.paths or options.final or content.films or content.motion is None:
             return
         ways = self._ways(content)
         for paper in content.papers:
@@ -43,11 +44,10 @@ class PathsItem(CanvasItem):
 
     def _ways(self, content: Content) -> FloatArray:
         """Return (frames, rows, 2) in stage px; worked out once a plan."""
-        times = frame_times(content.before, content.after)
-        times = times[:: -(-len(times) // MOST_STEPS)]
-        key = content.plan, times.tobytes()
-        if self._kept is None or self._kept[0] != key:
-            self._kept = key, vertex_ways(content.plan, times)
+        motion = content.motion
+        if self._kept is None or self._kept[0] is not motion:
+            frames = range(motion.before.frame, motion.after.frame + 1)
+            self._kept = motion, vertex_ways(motion, frames[:: -(-len(frames) // MOST_STEPS)])
         return self._kept[1]
 
     def _draw_ways(self, painter: QPainter, ways: FloatArray) -> None:
@@ -126,10 +126,11 @@ class PinsItem(CanvasItem):
                 draw_square(painter, QPointF(*handle), theme.color("accent"), theme.color("stage"))
 
 
-def vertex_ways(plan: SpanPlan, times: FloatArray) -> FloatArray:
-    """Return where at most MOST_LINES vertices of the in-between are at the times, as (times, rows, 2)."""
-    frames = plan.frames(times.tolist())
-    ways = np.concatenate([f[:, shown_rows(link)] for f, link in zip(frames, plan.links, strict=True)], axis=1)
+def vertex_ways(motion: SpanMotion, frames: Sequence[int]) -> FloatArray:
+    """Return where at most MOST_LINES vertices are at frames of the film, as (frames, rows, 2)."""
+    shapes = motion.at((np.array(frames) - motion.before.frame) / motion.length)
+    links = motion.plan.links
+    ways = np.concatenate([s[:, shown_rows(link)] for s, link in zip(shapes, links, strict=True)], axis=1)
     return ways[:, :: max(1, -(-ways.shape[1] // MOST_LINES))]
 
 

@@ -42,12 +42,12 @@ def _check(parsed: argparse.Namespace) -> int:
 def check(document: "Document") -> tuple[int, list[dict[str, Any]]]:
     """Return how many in-betweens there are, and all their problems: layer by layer, errors of a span first."""
     from core.model.checking import certify_span
-    from core.model.inbetweens import plan_span
+    from core.model.motion import PlanCache
 
-    count, found = 0, []
+    count, found, motions = 0, [], PlanCache().motions
     for layer in document.layers:
         for before, after in pairwise(layer.keyframes):
-            made = certify_span(before, after, plan_span(before.drawing, after.drawing, before.span))
+            made = certify_span(motions.of(document, layer, before, after))
             count += len(made.frames)
             where = {"layer": layer.name, "span": [before.frame, after.frame]}
             found += [where | _facts(p, made.frame_of(p)) for p in made.certificate.problems]

@@ -87,9 +87,7 @@ def _read_film(path: Path) -> "ImportedFilm":
         return read_svg_folder(path)
     if path.suffix.lower() == ".json":
         return read_lottie(path)
-    raise Problem(
-        f"{path} alone makes no film; name a second drawing, a folder of SVG, or a Lottie animation"
-    )
+    raise Problem(f"{path} alone makes no film; name a second drawing, a folder of SVG, or a Lottie animation")
 
 
 def _with_method(document: "Document", method: str) -> "Document":

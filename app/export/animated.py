@@ -106,7 +106,7 @@ class _Smil(_Timed):
             f"<path {start}>{''.join(self._animate(stretch, *track) for track in tracks)}</path>\n"
             for start, tracks in _parts(stretch)
         )
-        opacities = [number(float(getattr(m.picture, "opacity", 1.0))) for m in stretch.moments]
+        opacities = [number(m.picture.opacity) for m in stretch.moments]
         fade = self._animate(stretch, "opacity", opacities) if len(set(opacities)) > 1 else ""
         first = "" if opacities[0] == "1" else f' opacity="{opacities[0]}"'
         return f"<g{first}{self._hidden(stretch)}>{self._visible(stretch)}{fade}{paths}</g>\n"
@@ -162,7 +162,7 @@ class _Css(_Timed):
 
     def stretch(self, stretch: Stretch) -> str:
         paths = "".join(f"<path{self._tracks(stretch, tracks)} {start}/>\n" for start, tracks in _parts(stretch))
-        opacities = [number(float(getattr(m.picture, "opacity", 1.0))) for m in stretch.moments]
+        opacities = [number(m.picture.opacity) for m in stretch.moments]
         fade = [("opacity", opacities)] if len(set(opacities)) > 1 else []
         first = "" if opacities[0] == "1" else f' opacity="{opacities[0]}"'
         hidden = "" if stretch.start <= 0 else ' visibility="hidden"'

@@ -3,9 +3,10 @@
 import numpy as np
 
 from core.geometry.outline import FloatArray
-from core.model.document import Document, Keyframe, Stage, ratio_in_span
+from core.model.document import Document, Keyframe, Stage
 from core.model.drawing import Style
 from core.model.inbetweens import Picture
+from core.model.timing import drawn_offsets
 
 INK, MARK = "#202028", "#e0483a"
 HIGH, WIDE, AWAY = 0.5, 0.02, 0.05
@@ -34,10 +35,12 @@ def chart_pictures(document: Document, frame: float) -> tuple[Picture, ...]:
     before, after = found
     ladder = _Ladder(document.stage)
     ink, mark = [ladder.line(0.0, 1.0)], []
-    for at in range(before.frame, after.frame + 1):
-        t = float(before.span.easing.t_at(ratio_in_span(before, after, at)))
-        end = at in (before.frame, after.frame)
-        (mark if at == int(frame) else ink).append(ladder.rung(t, 1.6 if end else 1.0))
+    length = after.frame - before.frame
+    drawn = (*drawn_offsets(before.span, length), length)
+    shown = max(o for o in drawn if o <= frame - before.frame)
+    for offset in drawn:
+        t = float(before.span.easing.t_at(offset / length))
+        (mark if offset == shown else ink).append(ladder.rung(t, 1.6 if offset in (0, length) else 1.0))
     ink += ladder.number(before.frame, 0.0) + ladder.number(after.frame, 1.0)
     return _picture(ink, INK, ladder.pen), _picture(mark, MARK, 1.6 * ladder.pen)
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 from app.export.film import Film, Pictures, same_pictures
 from core.model.document import Layer
-from core.model.inbetweens import picture_at
+from core.model.motion import picture_at
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,7 +38,7 @@ def cells_of(film: Film, layer: Layer) -> list[Cell]:
     cells: list[Cell] = []
     drawn = 0
     for index, frame in enumerate(range(film.settings.first, film.settings.last + 1)):
-        picture = picture_at(layer, frame, film.plans)
+        picture = picture_at(film.document, layer, frame, film.plans)
         pictures = (picture,) if picture is not None and picture.outlines else ()
         if cells and same_pictures(cells[-1].pictures, pictures):
             cells[-1] = replace(cells[-1], count=cells[-1].count + 1)

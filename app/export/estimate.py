@@ -8,7 +8,8 @@ from app.export.png import encode_png
 from app.export.settings import ExportSettings
 from app.painting import render_pictures
 from core.model.document import Document, Layer
-from core.model.inbetweens import Picture, keyframe_picture
+from core.model.inbetweens import Picture
+from core.model.motion import drawing_picture
 
 SAMPLE_PIXELS = 200_000
 GROWTH = 1.25
@@ -53,7 +54,7 @@ def _near(layer: Layer, frame: int) -> Picture | None:
     """Return a keyframe of the layer near a frame: an in-between may have to be solved first."""
     before, after = layer.around(frame)
     keyframe = before or after
-    return None if keyframe is None else keyframe_picture(keyframe.drawing)
+    return None if keyframe is None else drawing_picture(keyframe.drawing)
 
 
 def _png_bytes(document: Document, settings: ExportSettings, pictures: list[Picture]) -> float:

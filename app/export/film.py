@@ -10,7 +10,8 @@ from app.export.settings import ExportSettings
 from core.errors import InkbetweenError
 from core.model.document import LONGEST, Document, Layer
 from core.model.drawing import Color
-from core.model.inbetweens import Picture, PlanCache, pictures_at
+from core.model.inbetweens import Picture
+from core.model.motion import PlanCache, pictures_at
 
 Pictures = tuple[Picture, ...]
 
@@ -139,11 +140,7 @@ def same_pictures(a: Pictures, b: Pictures) -> bool:
 def _same_picture(a: Picture, b: Picture) -> bool:
     if a is b:
         return True
-    if a.style != b.style or len(a.outlines) != len(b.outlines) or _opacity(a) != _opacity(b):
+    if a.style != b.style or len(a.outlines) != len(b.outlines) or a.opacity != b.opacity:
         return False
     outlines = zip(a.outlines, b.outlines, strict=True)
     return all(c == d and (p is q or np.array_equal(p, q)) for (p, c), (q, d) in outlines)
-
-
-def _opacity(picture: Picture) -> float:
-    return float(getattr(picture, "opacity", 1.0))

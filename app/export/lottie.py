@@ -89,9 +89,7 @@ def _layer(film: Film, layer: ShapeLayer, stretch: Stretch, count: int) -> Json:
     x, y, wide, _ = box_of(film.document.stage, film.settings.size)
     scale = film.settings.size[0] / wide
     transform = _transform(100, (_plain(-x * scale), _plain(-y * scale), 0), _plain(100 * scale))
-    transform["o"] = _animated(
-        stretch, [[100 * float(getattr(m.picture, "opacity", 1.0))] for m in stretch.moments]
-    )
+    transform["o"] = _animated(stretch, [[100 * m.picture.opacity] for m in stretch.moments])
     end = count if stretch.end >= count else stretch.end
     return _head(layer.name, stretch.start, end, transform) | {"ty": 4, "shapes": _groups(stretch)}
 

@@ -63,7 +63,7 @@ class Job:
 
     def light(self) -> "Job":
         """Return the same job to be sent to another process."""
-        shown = (Shown(p.outlines, p.style, getattr(p, "opacity", 1.0)) for p in self.pictures)
+        shown = (Shown(p.outlines, p.style, p.opacity) for p in self.pictures)
         return Job(tuple(shown), self.path)
 
 

@@ -15,7 +15,8 @@ from core.geometry.outline import FloatArray
 from core.model.document import Keyframe, Layer
 from core.model.drawing import Style
 from core.model.easing import Easing
-from core.model.inbetweens import Picture, picture_at
+from core.model.inbetweens import Picture
+from core.model.motion import picture_at
 
 NEARLY = 1e-6
 """Frames beside a keyframe: there the vertices are those of the in-betweens, and the form is the keyframe's."""
@@ -98,13 +99,13 @@ def _from_zero(stretch: Stretch, first: int) -> Stretch:
 
 
 def _shown(film: Film, layer: Layer, time: float) -> Picture | None:
-    return picture_at(layer, time, film.plans)
+    return picture_at(film.document, layer, time, film.plans)
 
 
 def _flows(film: Film, layer: Layer, before: Keyframe) -> bool:
     """Whether every frame of a span is a drawing of its own."""
     span = before.span
-    return not (getattr(span, "hold", False) or getattr(span, "exposures", ()) or getattr(span, "step", 1) != 1)
+    return not (span.hold or span.exposures or span.step != 1)
 
 
 def _flowing(film: Film, layer: Layer, before: Keyframe, after: Keyframe, start: int, end: int) -> Stretch:
@@ -123,7 +124,7 @@ def _flowing(film: Film, layer: Layer, before: Keyframe, after: Keyframe, start:
 
 def _is_one_curve(easing: Easing) -> bool:
     """Whether every player can follow: one curve that does not overshoot."""
-    return not getattr(easing, "knots", ()) and 0 <= min(easing.y1, easing.y2) <= max(easing.y1, easing.y2) <= 1
+    return not easing.knots and 0 <= min(easing.y1, easing.y2) <= max(easing.y1, easing.y2) <= 1
 
 
 def _inside(film: Film, layer: Layer, frame: int, side: int) -> Picture | None:
@@ -135,8 +136,8 @@ def _is_straight(layer: Layer, before: Keyframe) -> bool:
     span = before.span
     after = next(k for k in layer.keyframes if k.frame > before.frame)
     bent = span.pins or span.repair or span.turns or span.method != "linear"
-    smooth = getattr(before, "smooth", False) or getattr(after, "smooth", False)
-    follows = getattr(layer, "parent", None) is not None
+    smooth = before.smooth or after.smooth
+    follows = layer.parent is not None
     return not (bent or smooth or follows) and before.drawing.style == after.drawing.style
 
 
@@ -196,5 +197,5 @@ def _numbers(picture: Picture) -> FloatArray:
     style = picture.style
     colors = [c for paint in (style.fill, style.stroke) if paint for c in bytes.fromhex(paint[1:].ljust(8, "f"))]
     scale = TOLERANCE / (255 * COLOR_TOLERANCE)
-    rest = [style.width, *(c * scale for c in colors), 255 * float(getattr(picture, "opacity", 1.0)) * scale]
+    rest = [style.width, *(c * scale for c in colors), 255 * picture.opacity * scale]
     return np.concatenate([*(points.ravel() for points, _ in picture.outlines), np.array(rest)])

@@ -89,8 +89,7 @@ def paint_attributes(name: str, color: Color | None) -> str:
 
 
 def opacity_attribute(picture: Picture) -> str:
-    opacity = float(getattr(picture, "opacity", 1.0))
-    return "" if opacity == 1 else f' opacity="{number(opacity)}"'
+    return "" if picture.opacity == 1 else f' opacity="{number(picture.opacity)}"'
 
 
 def path_data(outlines: Iterable[FloatArray], *, closed: bool) -> str:

@@ -67,14 +67,15 @@ class AlternativesPanel(QWidget):
         self._refresh()
 
     def _pair(self, ranking: Ranking) -> OutlinePair | None:
-        keyframe = self.session.layer.keyframe_at(ranking.question.frame)
         question = ranking.question
+        layer, frame = question.span
+        keyframe = self.session.layer.keyframe_at(frame) if self.session.layer.id == layer else None
         return keyframe.span.pair_of(question.before.id, question.after.id) if keyframe else None
 
     def _refresh(self, *_: object) -> None:
         before, after = self.session.span_keyframes()
         if not self.session.in_gesture:
-            self.ranked.ask(before, after)
+            self.ranked.ask(before, after, self.session.layer.id)
         ranking = self.ranked.ranking
         # thumbnails must be there at once: the slow methods' middles look like intrinsic's at this size
         method = "linear" if before is not None and before.span.method == "linear" else "intrinsic"
@@ -158,7 +159,7 @@ class AlternativesPanel(QWidget):
             if event.type() == QEvent.Type.Enter and ranking is not None:
                 q = ranking.question
                 alternative = ranking.alternatives[self.buttons.index(watched)]
-                self.preview.try_out((q.frame, q.before.id, q.after.id), alternative.correspondence)
+                self.preview.try_out((q.span, q.before.id, q.after.id), alternative.correspondence)
             else:
                 self.preview.try_out(None)
         return False
@@ -167,14 +168,13 @@ class AlternativesPanel(QWidget):
         self.preview.try_out(None)
         session, q = self.session, ranking.question
         if alternative is ranking.alternatives[0]:
-            session.apply("Solve Again", solve_again, session.layer.id, q.frame)
+            session.apply("Solve Again", solve_again, *q.span)
         else:
             ids = q.before.id, q.after.id
             session.apply(
                 "Choose Correspondence",
                 choose_correspondence,
-                session.layer.id,
-                q.frame,
+                *q.span,
                 *ids,
                 alternative.correspondence,
             )

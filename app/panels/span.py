@@ -108,7 +108,7 @@ class SpanPanel(QWidget):
             widget.setEnabled(there)
         self.lines.set_value(self.view_state.options.lines)
         self.compare.setChecked(self.view_state.options.arrangement == "compare")
-        repairing = there and before.span.repair and self.preview.waiting(before)
+        repairing = there and before.span.repair and self.preview.waiting(before, self.session.layer.id)
         self.progress.setVisible(repairing)
         self.stop.setVisible(repairing)
         if not there or before is None or after is None:
@@ -134,8 +134,8 @@ class SpanPanel(QWidget):
     def _about(self, before: Keyframe, after: Keyframe) -> str:
         """Say what the method does; of auto what it chose, and what did not go as asked."""
         span = before.span
-        plan = self.preview.plan(before, after)
-        if self.preview.waiting(before):
+        plan = self.preview.plan(before, after, self.session.layer.id)
+        if self.preview.waiting(before, self.session.layer.id):
             what = "the repair" if span.repair else span.method
             return f"Solving {what}; until then {plan.paths.method} is shown."
         tip = next(tip for value, _, tip in METHODS if value == span.method)

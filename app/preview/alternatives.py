@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from app.preview.spans import SpanPreview
+from app.preview.spans import SpanPreview, SpanRef
 from app.preview.worker import NewestWins
 from core.correspondence.by_hand import mean_shift
 from core.correspondence.matching import Alternative, alternatives
@@ -23,9 +23,9 @@ SAME = 0.005
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """Two outlines and the anchors between them."""
+    """Two outlines and the anchors between them, and the span that they are in."""
 
-    frame: int
+    span: SpanRef
     before: Outline
     after: Outline
     anchors: tuple[tuple[float, float], ...]
@@ -35,7 +35,7 @@ class Question:
         return self.before.closed and self.after.closed
 
     def key(self) -> tuple[object, ...]:
-        return self.frame, id(self.before), id(self.after), self.anchors
+        return self.span, id(self.before), id(self.after), self.anchors
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,13 +77,13 @@ class AlternativesPreview(QObject):
         self._pause.stop()
         self._worker.stop()
 
-    def ask(self, before: Keyframe | None, after: Keyframe | None) -> None:
+    def ask(self, before: Keyframe | None, after: Keyframe | None, layer: int) -> None:
         """Rank the correspondences of this span, unless that is done or under way."""
         question = None
         pair = self._preview.main_pair(before, after) if before is not None and after is not None else None
         if pair is not None and before is not None:
             made = before.span.pair_of(pair[0].id, pair[1].id)
-            question = Question(before.frame, *pair, made.held if made else ())
+            question = Question((layer, before.frame), *pair, made.held if made else ())
         if (question and question.key()) == (self._question and self._question.key()):
             return
         self._question = question

@@ -11,7 +11,7 @@ from app.preview.worker import NewestWins
 from app.session import Session
 from core.model.checking import SpanCertificate, certify_span
 from core.model.document import Keyframe
-from core.model.inbetweens import SpanPlan
+from core.model.motion import SpanMotion
 
 PAUSE_MS = 300
 """After the last change: what the hand is still at need not be judged."""
@@ -26,14 +26,14 @@ SpanKey = tuple[int, int, int, int, int]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Task:
-    """A span and its plan; it keeps the keyframes, so that no other object can take the ids in their key."""
+    """A span in time; it keeps the keyframes, so that no other object can take the ids in their key."""
 
     before: Keyframe
     after: Keyframe
-    plan: SpanPlan
+    motion: SpanMotion
 
     def certify(self) -> "_Certified":
-        return _Certified(self, certify_span(self.before, self.after, self.plan))
+        return _Certified(self, certify_span(self.motion))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -93,10 +93,12 @@ class CertificatePreview(QObject):
     def _on_next(self) -> None:
         if self._left:
             before, after = self._left.pop(0)
-            plan = self._preview.plan(before, after)
+            document, layer = self._session.document, self._session.layer
+            motion = self._preview.motions.of(document, layer, before, after)
             known = self._made.get(_key(before, after))
-            if not self._preview.waiting(before) and (known is None or known.task.plan is not plan):
-                self._wanted.append(_Task(before, after, plan))
+            waiting = self._preview.waiting(before, layer.id)
+            if not waiting and (known is None or known.task.motion is not motion):
+                self._wanted.append(_Task(before, after, motion))
             self._next.start()
         elif self._wanted:
             self._under_way = wanted = self._wanted

@@ -20,6 +20,7 @@ from core.model.document import Document, Keyframe, Span
 from core.model.drawing import Drawing, Outline
 from core.model.edits import store_answer
 from core.model.inbetweens import PairMatch, Rows, SpanMatch, SpanPlan, paired_outlines, plan_span
+from core.model.motion import Motions
 
 PAUSE_MS = 40
 """The worker starts when nothing new was asked for this long: while a vertex is dragged, the pairs stay put."""
@@ -32,22 +33,26 @@ MOST_DRAGGED_ROWS = 6000
 KEPT_BESIDE = 3
 """Neighbours of a moved vertex that are kept on either side."""
 
-MOST_KEPT = 256
+MOST_KEPT = 1024
 
 Progress = Callable[[float], None]
 Pairs = tuple[tuple[int, int], ...]
-PairRef = tuple[int, int, int]
-"""The frame that a span begins at, and the ids of two outlines."""
+SpanRef = tuple[int, int]
+"""The id of a layer, and the frame that a span of it begins at."""
+
+PairRef = tuple[SpanRef, int, int]
+"""A span, and the ids of two of its outlines."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Task:
-    """Two outlines to be matched, and the frames of their keyframes."""
+    """Two outlines to be matched, the span they belong to and the frame that it ends at."""
 
     before: Outline
     after: Outline
     anchors: tuple[tuple[float, float], ...]
-    frames: tuple[int, int]
+    span: SpanRef
+    end: int
     kept: Correspondence | None = None
 
     @property
@@ -60,7 +65,7 @@ class _Task:
     def likeness(self) -> tuple[object, ...]:
         """Equal for tasks whose vertices can share a correspondence."""
         a, b = self.before, self.after
-        return self.frames, a.id, b.id, len(a.points), len(b.points), a.closed, b.closed
+        return self.span, self.end, a.id, b.id, len(a.points), len(b.points), a.closed, b.closed
 
     def solve(self) -> Correspondence:
         """Return the kept correspondence, or the solver's answer."""
@@ -88,15 +93,20 @@ class _Solved:
 class _PlanTask:
     """A span to be planned, with its solved correspondences."""
 
+    layer: int
     before: Keyframe
     after: Keyframe
     span: Span
     solved: tuple[_Solved, ...]
 
     @property
+    def ref(self) -> SpanRef:
+        return self.layer, self.before.frame
+
+    @property
     def key(self) -> tuple[object, ...]:
         drawings, s = (id(self.before.drawing), id(self.after.drawing)), self.span
-        return *drawings, s.method, s.turns, s.repair, s.pins, *(id(x) for x in self.solved)
+        return *drawings, s.method, s.turns, s.repair, s.placement, s.pins, *(id(x) for x in self.solved)
 
     def likeness(self) -> tuple[object, ...]:
         """Equal for plans that take about as long."""
@@ -121,6 +131,16 @@ class _Planned:
     seconds: float
 
 
+class _Active:
+    """The preview's plans for motions, by each span's own method."""
+
+    def __init__(self, preview: "SpanPreview") -> None:
+        self._preview = preview
+
+    def plan(self, before: Keyframe, after: Keyframe, layer: int = 0) -> SpanPlan:
+        return self._preview.plan(before, after, layer)
+
+
 class SpanPreview(QObject):
     """Gives plans without ever making the window wait; `planned` says that a better one is there."""
 
@@ -129,10 +149,11 @@ class SpanPreview(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
+        self.motions = Motions(_Active(self))
         self._exact: OrderedDict[object, _Solved] = OrderedDict()
         self._alike: OrderedDict[object, _Solved] = OrderedDict()
         self._plans: OrderedDict[object, _Planned] = OrderedDict()
-        self._slow: dict[int, _PlanTask] = {}
+        self._slow: dict[SpanRef, _PlanTask] = {}
         self._planning: _PlanTask | None = None
         self._seconds: dict[object, float] = {}
         self._cancel = threading.Event()
@@ -160,42 +181,43 @@ class SpanPreview(QObject):
         self._worker.stop()
         self._planner.stop()
 
-    def plan(self, before: Keyframe, after: Keyframe, method: str | None = None) -> SpanPlan:
-        """Return a plan of the span, with another method if one is named.
+    def plan(self, before: Keyframe, after: Keyframe, layer: int, method: str | None = None) -> SpanPlan:
+        """Return a plan of the span of the layer with that id, with another method if one is named.
 
         While a slow one (rigid, auto, a repair) is being solved, it is intrinsic's, or that of the method without
         the repair; `waiting` tells.
         """
         span = before.span if method is None else replace(before.span, method=method)
-        wanted = self._wanted_plan(before, after, span)
+        wanted = self._wanted_plan(before, after, layer, span)
         found = self._plans.get(wanted.key)
         if found is None and self._is_quick(wanted):
             found = self._keep_plan(wanted.solve())
         if method is None and found is not None:
-            self._slow.pop(before.frame, None)
+            self._slow.pop(wanted.ref, None)
         if found is None:
-            asked = self._slow.pop(before.frame, None)
+            asked = self._slow.pop(wanted.ref, None)
             known = asked is not None and asked.key == wanted.key
-            self._slow[before.frame] = asked if known else wanted  # the last one asked for is solved first
+            self._slow[wanted.ref] = asked if known else wanted  # the last one asked for is solved first
             if not known:
                 self._pause.start()
             quick = span.method if span.method in QUICK_METHODS else "intrinsic"
-            return self._stand_in(before, after, quick)
+            return self._stand_in(before, after, layer, quick)
         _touch(self._plans, wanted.key)
         return found.plan
 
-    def waiting(self, before: Keyframe) -> bool:
+    def waiting(self, before: Keyframe, layer: int) -> bool:
         """Whether what is shown of the span that begins here stands in for a plan that is being solved."""
-        return before.frame in self._slow
+        return (layer, before.frame) in self._slow
 
-    def _stand_in(self, before: Keyframe, after: Keyframe, method: str) -> SpanPlan:
-        wanted = self._wanted_plan(before, after, replace(before.span, method=method, repair=False))
+    def _stand_in(self, before: Keyframe, after: Keyframe, layer: int, method: str) -> SpanPlan:
+        wanted = self._wanted_plan(before, after, layer, replace(before.span, method=method, repair=False))
         found = self._plans.get(wanted.key) or self._keep_plan(wanted.solve())
         _touch(self._plans, wanted.key)
         return found.plan
 
-    def _wanted_plan(self, before: Keyframe, after: Keyframe, span: Span) -> "_PlanTask":
-        return _PlanTask(before, after, span, tuple(self._solved(task) for task in self._tasks(before, after)))
+    def _wanted_plan(self, before: Keyframe, after: Keyframe, layer: int, span: Span) -> "_PlanTask":
+        solved = tuple(self._solved(task) for task in self._tasks(before, after, layer))
+        return _PlanTask(layer, before, after, span, solved)
 
     def _is_quick(self, wanted: "_PlanTask") -> bool:
         """Whether a plan can be made between two frames of a drag: as the last one like it could."""
@@ -215,9 +237,11 @@ class SpanPreview(QObject):
         outlines = [(before.drawing.outline(i), after.drawing.outline(j)) for i, j in pairs]
         return max(outlines, key=lambda ab: perimeter(ab[0].points, closed=ab[0].closed), default=None)
 
-    def correspondence(self, before: Keyframe, after: Keyframe, pair: tuple[int, int]) -> Correspondence:
+    def correspondence(
+        self, before: Keyframe, after: Keyframe, layer: int, pair: tuple[int, int]
+    ) -> Correspondence:
         """Return the correspondence of two outlines that the canvas shows now."""
-        for task in self._tasks(before, after):
+        for task in self._tasks(before, after, layer):
             if (task.before.id, task.after.id) == pair:
                 return self._solved(task).correspondence
         raise KeyError(f"outlines {pair} are no pair")
@@ -241,22 +265,22 @@ class SpanPreview(QObject):
         """
         for layer in document.layers:
             for before, after in pairwise(layer.keyframes):
-                for task in self._tasks(before, after):
+                for task in self._tasks(before, after, layer.id):
                     solved = self._exact.get(task.key())
                     if task.kept is None and solved is not None:
                         ids = task.before.id, task.after.id
                         document = store_answer(document, layer.id, before.frame, *ids, solved.correspondence)
         return document
 
-    def _tasks(self, before: Keyframe, after: Keyframe) -> list[_Task]:
-        tasks = []
+    def _tasks(self, before: Keyframe, after: Keyframe, layer: int) -> list[_Task]:
+        tasks, span = [], (layer, before.frame)
         for i, j in self._paired(before.drawing, after.drawing, before):
             made = before.span.pair_of(i, j)
             kept = made.correspondence if made else None
-            if self._trial is not None and self._trial[0] == (before.frame, i, j):
+            if self._trial is not None and self._trial[0] == (span, i, j):
                 kept = self._trial[1]
             a, b = before.drawing.outline(i), after.drawing.outline(j)
-            tasks.append(_Task(a, b, made.held if made else (), (before.frame, after.frame), kept))
+            tasks.append(_Task(a, b, made.held if made else (), span, after.frame, kept))
         return tasks
 
     def _paired(self, before: Drawing, after: Drawing, keyframe: Keyframe) -> Pairs:
@@ -351,9 +375,9 @@ class SpanPreview(QObject):
             _touch(self._plans, result.task.key)
             if self._planning is result.task:
                 self._planning = None
-            waiting = self._slow.get(result.task.before.frame)
+            waiting = self._slow.get(result.task.ref)
             if waiting is not None and waiting.key == result.task.key:
-                del self._slow[result.task.before.frame]
+                del self._slow[result.task.ref]
             self.planned.emit()
             if self._slow:
                 self._pause.start()

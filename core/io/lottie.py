@@ -26,7 +26,7 @@ from core.model.document import LONGEST, Keyframe, OutlinePair, Span
 from core.model.drawing import WIDEST_STROKE, Drawing, Outline, Style
 from core.model.easing import Easing
 
-HELD = Span("linear")
+HELD = Span("linear", hold=True)
 """The drawing stays until the next keyframe."""
 
 LARGEST_FILE = 64 * 1024 * 1024

@@ -21,6 +21,7 @@ from core.errors import FileFormatError, InkbetweenError, StorageError
 from core.model.document import (
     LONGEST_NAME,
     LONGEST_PATH,
+    PLACEMENTS,
     Anchor,
     Document,
     Keyframe,
@@ -31,18 +32,24 @@ from core.model.document import (
     Stage,
 )
 from core.model.drawing import LARGEST_ID, Drawing, Outline, Style
-from core.model.easing import Easing
+from core.model.easing import Easing, Knot
 from core.model.pins import SpanPin
 
 FORMAT: Final = "inkbetween"
-VERSION = 1
+VERSION = 2
 SUFFIX = ".inkb"
+OPAQUE = 1.0
+"""Left out of the file, which the writer does by identity."""
+
 LARGEST_FILE = 512 * 1024 * 1024
 
 Number = float
 Point = tuple[Number, Number]
 Id = Annotated[int, msgspec.Meta(ge=1, le=LARGEST_ID)]
 Count = Annotated[int, msgspec.Meta(ge=2, le=LARGEST_ID)]
+
+
+_Knot = tuple[Number, Number, Number, Number, Number, Number]
 
 
 class _Struct(msgspec.Struct, forbid_unknown_fields=True):
@@ -80,6 +87,11 @@ class _Span(_Struct, omit_defaults=True):
     pairs: list[_Pair]
     repair: bool = False
     pins: list[_Pin] = []
+    knots: list[_Knot] = []
+    placement: str = PLACEMENTS[0]
+    hold: bool = False
+    step: int = 1
+    exposures: list[int] = []
 
 
 class _Outline(_Struct):
@@ -88,10 +100,11 @@ class _Outline(_Struct):
     points: list[Point]
 
 
-class _Style(_Struct):
+class _Style(_Struct, omit_defaults=True):
     fill: str | None
     stroke: str | None
     width: Number
+    opacity: Number = OPAQUE
 
 
 class _Drawing(_Struct):
@@ -109,13 +122,18 @@ class _Keyframe(_Struct, omit_defaults=True):
     drawing: _Drawing
     span: _Span
     reference: _Reference | None = None
+    smooth: bool = False
 
 
-class _Layer(_Struct):
+class _Layer(_Struct, omit_defaults=True):
     id: Id
     name: Annotated[str, msgspec.Meta(max_length=LONGEST_NAME)]
     visible: bool
     keyframes: list[_Keyframe]
+    locked: bool = False
+    opacity: Number = OPAQUE
+    color: str | None = None
+    parent: Id | None = None
 
 
 class _Stage(_Struct):
@@ -255,12 +273,26 @@ def decode(content: bytes) -> Document:
 def _to_file(document: Document) -> _Project:
     """Every number as a plain one: equal documents give equal bytes, and the writer knows no NumPy scalars."""
     stage = _Stage(int(document.stage.width), int(document.stage.height), document.stage.background)
-    layers = [
-        _Layer(int(layer.id), layer.name, bool(layer.visible), [_keyframe_to_file(k) for k in layer.keyframes])
-        for layer in document.layers
-    ]
+    layers = [_layer_to_file(layer) for layer in document.layers]
     rate = (int(document.rate.numerator), int(document.rate.denominator))
     return _Project(FORMAT, VERSION, stage, rate, int(document.length), layers)
+
+
+def _layer_to_file(layer: Layer) -> _Layer:
+    return _Layer(
+        int(layer.id),
+        layer.name,
+        bool(layer.visible),
+        [_keyframe_to_file(k) for k in layer.keyframes],
+        bool(layer.locked),
+        _opacity(layer.opacity),
+        layer.color,
+        None if layer.parent is None else int(layer.parent),
+    )
+
+
+def _opacity(opacity: float) -> float:
+    return OPAQUE if opacity == OPAQUE else float(opacity)
 
 
 def _keyframe_to_file(keyframe: Keyframe) -> _Keyframe:
@@ -269,7 +301,7 @@ def _keyframe_to_file(keyframe: Keyframe) -> _Keyframe:
     easing = span.easing
     return _Keyframe(
         int(keyframe.frame),
-        _Drawing(_Style(style.fill, style.stroke, float(style.width)), outlines),
+        _Drawing(_Style(style.fill, style.stroke, float(style.width), _opacity(style.opacity)), outlines),
         _Span(
             span.method,
             (float(easing.x1), float(easing.y1), float(easing.x2), float(easing.y2)),
@@ -277,9 +309,20 @@ def _keyframe_to_file(keyframe: Keyframe) -> _Keyframe:
             [_pair_to_file(p) for p in span.pairs],
             bool(span.repair),
             [_pin_to_file(p) for p in span.pins],
+            [_knot_to_file(k) for k in easing.knots],
+            span.placement,
+            bool(span.hold),
+            int(span.step),
+            [int(e) for e in span.exposures],
         ),
         _Reference(keyframe.reference.path, float(keyframe.reference.opacity)) if keyframe.reference else None,
+        bool(keyframe.smooth),
     )
+
+
+def _knot_to_file(knot: Knot) -> _Knot:
+    x, y, in_x, in_y, out_x, out_y = map(float, knot)
+    return x, y, in_x, in_y, out_x, out_y
 
 
 def _pair_to_file(pair: OutlinePair) -> _Pair:
@@ -310,7 +353,18 @@ def _from_file(project: _Project) -> Document:
             _keyframe_from_file(k, f"layers[{i}].keyframes[{j}]") for j, k in enumerate(layer.keyframes)
         )
         with _place(f"layers[{i}]"):
-            layers.append(Layer(layer.id, layer.name, layer.visible, keyframes))
+            layers.append(
+                Layer(
+                    layer.id,
+                    layer.name,
+                    layer.visible,
+                    keyframes,
+                    layer.locked,
+                    layer.opacity,
+                    layer.color,
+                    layer.parent,
+                )
+            )
         _check_span(layers[-1], f"layers[{i}]")
     with _place(""):
         return Document(stage, rate, project.length, tuple(layers))
@@ -324,17 +378,19 @@ def _keyframe_from_file(keyframe: _Keyframe, where: str) -> Keyframe:
             outlines.append(Outline(o.id, points, o.closed))
     with _place(f"{where}.drawing"):
         style = keyframe.drawing.style
-        drawing = Drawing(tuple(outlines), Style(style.fill, style.stroke, style.width))
+        drawing = Drawing(tuple(outlines), Style(style.fill, style.stroke, style.width, style.opacity))
     pairs = [_pair_from_file(p, f"{where}.span.pairs[{i}]") for i, p in enumerate(keyframe.span.pairs)]
     pins = [_pin_from_file(p, f"{where}.span.pins[{i}]") for i, p in enumerate(keyframe.span.pins)]
     with _place(f"{where}.span"):
         s = keyframe.span
-        span = Span(s.method, Easing(*s.easing), s.turns, tuple(pairs), s.repair, tuple(pins))
+        easing = Easing(*s.easing, tuple(Knot(*k) for k in s.knots))
+        timing = s.placement, s.hold, s.step, tuple(s.exposures)
+        span = Span(s.method, easing, s.turns, tuple(pairs), s.repair, tuple(pins), *timing)
     with _place(f"{where}.reference"):
         kept = keyframe.reference
         reference = Reference(kept.path, kept.opacity) if kept else None
     with _place(where):
-        return Keyframe(keyframe.frame, drawing, span, reference)
+        return Keyframe(keyframe.frame, drawing, span, reference, keyframe.smooth)
 
 
 def _pair_from_file(pair: _Pair, where: str) -> OutlinePair:

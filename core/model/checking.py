@@ -10,8 +10,7 @@ from core.certificate import SEVERITIES, Certificate, Problem, certify_drawing
 from core.certificate.views import factors
 from core.geometry.outline import FloatArray, edge_lengths
 from core.methods.plan import AlignedPair
-from core.model.document import Keyframe, ratio_in_span
-from core.model.inbetweens import SpanPlan
+from core.model.motion import SpanMotion
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,23 +62,17 @@ class SpanCertificate:
         return problem.severity if problem else ""
 
 
-def certify_span(before: Keyframe, after: Keyframe, plan: SpanPlan) -> SpanCertificate:
-    """Return the certificate of all in-betweens of a span, each at its eased t.
-
-    Parameters
-    ----------
-    before, after : Keyframe
-    plan : SpanPlan
-        Of the span between them.
-    """
+def certify_span(motion: SpanMotion) -> SpanCertificate:
+    """Return the certificate of all in-betweens of a span, each as it is shown at its frame."""
+    before, after, plan = motion.before, motion.after, motion.plan
     frames = tuple(range(before.frame + 1, after.frame))
-    times = before.span.easing.t_at(np.array([ratio_in_span(before, after, f) for f in frames], np.float64))
-    if not frames or not plan.links:
+    times = motion.times(frames)
+    if not frames or not plan.links or before.span.hold:
         empty = np.zeros(len(frames))
         return SpanCertificate(Certificate((), times, empty, empty, empty + 1, {}), frames)
-    pairs = [link.aligned for link in plan.links]
+    pairs = [link.aligned for link in motion.shown_plan.links]
     certificate = certify_drawing(
-        plan.frames(times.tolist()),
+        motion.frames(frames),
         [p.closed for p in pairs],
         [p.left for p in pairs],
         [p.right for p in pairs],

@@ -20,6 +20,10 @@ LONGEST = 100_000
 FASTEST = 1000
 MOST_TURNS = 100
 MOST_PINS = 200
+LONGEST_STEP = 1000
+PLACEMENTS = ("still", "centroid")
+"""Where an in-between lies: what hardly moves stays still, or the centroid goes straight."""
+
 LONGEST_NAME = 1000
 AUTO = "auto"
 """Not a method of its own: the better one of rigid and intrinsic."""
@@ -121,6 +125,15 @@ class Span:
         are ignored.
     pins : tuple of SpanPin
         Points whose way the artist has drawn, in the order they were made.
+    placement : str
+        One of PLACEMENTS; without effect where pins decide.
+    hold : bool
+        There are no in-betweens: the drawing before stays until the keyframe after.
+    step : int
+        Frames that each drawing is held: 1 is on ones, 2 on twos.
+    exposures : tuple of int
+        A timing chart of its own: the frames that each drawing is held, the keyframe's first; empty: by `step`.
+        In a span of another length the last one is held longer, or what is too much falls away.
     """
 
     method: str = AUTO
@@ -129,6 +142,10 @@ class Span:
     pairs: tuple[OutlinePair, ...] = ()
     repair: bool = False
     pins: tuple[SpanPin, ...] = ()
+    placement: str = PLACEMENTS[0]
+    hold: bool = False
+    step: int = 1
+    exposures: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
         if self.method not in (*METHODS, AUTO):
@@ -137,6 +154,12 @@ class Span:
             raise DocumentError(f"{self.turns} extra turns; the limit is {MOST_TURNS}")
         if len(self.pins) > MOST_PINS:
             raise DocumentError(f"{len(self.pins)} pins in one span; the limit is {MOST_PINS}")
+        if self.placement not in PLACEMENTS:
+            raise DocumentError(f"unknown placement {self.placement!r}; known are {', '.join(PLACEMENTS)}")
+        if not 1 <= self.step <= LONGEST_STEP:
+            raise DocumentError(f"drawings held for {self.step} frames; it must be 1 to {LONGEST_STEP}")
+        if not all(1 <= e <= LONGEST for e in self.exposures) or sum(self.exposures) > LONGEST:
+            raise DocumentError(f"a timing chart's drawings are each held for 1 to {LONGEST} frames, together too")
         for side in ("before", "after"):
             ids = [getattr(p, side) for p in self.pairs]
             if len(set(ids)) < len(ids):
@@ -160,12 +183,15 @@ class Keyframe:
         To the next keyframe; without effect on the last one, yet kept, so that nothing is lost when keys move.
     reference : Reference or None
         Laid under the stage while this keyframe is drawn.
+    smooth : bool
+        The vertices go through this keyframe without a jump in their velocity; otherwise it is a sharp one.
     """
 
     frame: int
     drawing: Drawing = field(default_factory=Drawing)
     span: Span = field(default_factory=Span)
     reference: Reference | None = None
+    smooth: bool = False
 
     def __post_init__(self) -> None:
         if not 1 <= self.frame <= LONGEST:
@@ -184,15 +210,31 @@ class Layer:
     visible : bool
     keyframes : tuple of Keyframe
         Frames strictly rising.
+    locked : bool
+        Seen, but not changed on the canvas and the timeline.
+    opacity : float
+        0 to 1, times that of each drawing.
+    color : Color or None
+        Marks the layer in the window; it is never exported. None: one by the layer's id.
+    parent : int or None
+        Id of the layer whose motion this one follows.
     """
 
     id: int
     name: str = "Layer 1"
     visible: bool = True
     keyframes: tuple[Keyframe, ...] = ()
+    locked: bool = False
+    opacity: float = 1.0
+    color: Color | None = None
+    parent: int | None = None
 
     def __post_init__(self) -> None:
         check_id(self.id, name="a layer")
+        if not 0 <= self.opacity <= 1:
+            raise DocumentError(f"the opacity of layer {self.name!r} is {self.opacity}; it must be 0 to 1")
+        if self.color is not None:
+            object.__setattr__(self, "color", as_color(self.color, name="the layer's colour"))
         if len(self.name) > LONGEST_NAME:
             raise DocumentError(f"the layer's name has {len(self.name)} characters; the limit is {LONGEST_NAME}")
         if any(0xD800 <= ord(c) <= 0xDFFF for c in self.name):
@@ -273,6 +315,19 @@ class Document:
         ids = [layer.id for layer in self.layers]
         if len(set(ids)) < len(ids):
             raise DocumentError("two layers have the same id")
+        self._check_parents()
+
+    def _check_parents(self) -> None:
+        parents = {layer.id: layer.parent for layer in self.layers}
+        for layer in self.layers:
+            seen, above = {layer.id}, layer.parent
+            while above is not None:
+                if above not in parents:
+                    raise DocumentError(f"layer {layer.name!r} follows layer {above}, which is not there")
+                if above in seen:
+                    raise DocumentError(f"layer {layer.name!r} cannot follow a layer that follows it")
+                seen.add(above)
+                above = parents[above]
 
     def layer(self, layer_id: int) -> Layer:
         """Return the layer with that id, or raise DocumentError."""

@@ -40,13 +40,17 @@ class Style:
     ----------
     fill, stroke : Color or None
         None paints nothing.
+        An open outline is never filled; without a stroke its line takes the colour of the fill.
     width : float
         Width of the stroke in stage px, 0 to 10,000.
+    opacity : float
+        Of the whole drawing, 0 to 1: fill and stroke do not show through each other.
     """
 
     fill: Color | None = "#7b61e8"
     stroke: Color | None = None
     width: float = 4.0
+    opacity: float = 1.0
 
     def __post_init__(self) -> None:
         for name in ("fill", "stroke"):
@@ -55,6 +59,8 @@ class Style:
                 object.__setattr__(self, name, as_color(color, name=name))
         if not 0 <= self.width <= WIDEST_STROKE:
             raise DocumentError(f"the stroke width is {self.width}; it must be 0 to {WIDEST_STROKE:g} px")
+        if not 0 <= self.opacity <= 1:
+            raise DocumentError(f"the opacity of a drawing is {self.opacity}; it must be 0 to 1")
 
 
 @dataclass(frozen=True, slots=True, eq=False)

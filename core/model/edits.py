@@ -4,7 +4,6 @@ An edit that changes nothing returns the very same document. Where vertices are 
 of the spans on both sides, and the pins of the span that begins there, stay at their places on the outline.
 """
 
-import itertools
 from bisect import insort
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
@@ -18,6 +17,14 @@ from core.geometry.outline import FloatArray, points_at
 from core.model.document import Document, Keyframe, Layer, OutlinePair, Reference, Span, Stage
 from core.model.drawing import Drawing, Outline, Style
 from core.model.easing import Easing
+from core.model.layer_edits import (
+    add_layer,
+    delete_layer,
+    duplicate_layer,
+    move_layer,
+    set_layer,
+    set_parent,
+)
 from core.model.pair_edits import (
     add_anchor,
     choose_correspondence,
@@ -29,7 +36,7 @@ from core.model.pair_edits import (
     solve_again,
     store_answer,
 )
-from core.model.parts import keyframe_of, with_keyframe
+from core.model.parts import keyframe_of, with_keyframe, with_keyframes
 from core.model.pin_edits import (
     add_pin,
     change_pins,
@@ -40,6 +47,14 @@ from core.model.pin_edits import (
     set_pin_handles,
 )
 from core.model.positions import Positions, after_deletion, after_insertion, holding, same_build
+from core.model.timing_edits import (
+    delete_tick,
+    divide_tick,
+    hold_tick,
+    move_tick,
+    set_smooth,
+    set_step,
+)
 
 Mine = Callable[[OutlinePair], int]
 """The side of a pair that an edit is about: its outline before or its outline after."""
@@ -54,30 +69,38 @@ __all__ = [
     "clear_pins",
     "delete_anchor",
     "delete_keyframe",
+    "delete_layer",
     "delete_outline",
     "delete_pin",
+    "delete_tick",
     "delete_vertices",
+    "divide_tick",
+    "duplicate_layer",
+    "hold_tick",
     "insert_vertex",
     "move_anchor",
     "move_keyframe",
+    "move_layer",
     "move_pin",
+    "move_tick",
     "move_vertices",
     "pair_outlines_by_hand",
     "put_drawing",
     "set_layer",
     "set_length",
     "set_muted",
+    "set_parent",
     "set_pin_handles",
     "set_rate",
     "set_reference",
+    "set_smooth",
     "set_span",
     "set_stage",
+    "set_step",
     "set_style",
     "solve_again",
     "store_answer",
 ]
-
-NOT_MOVED: Mapping[int, int] = {}
 
 
 def set_stage(document: Document, stage: Stage) -> Document:
@@ -93,26 +116,6 @@ def set_rate(document: Document, rate: Fraction) -> Document:
 def set_length(document: Document, length: int) -> Document:
     """Set the number of frames; keyframes behind the end are kept."""
     return document if length == document.length else replace(document, length=length)
-
-
-def add_layer(document: Document, name: str) -> Document:
-    """Add an empty layer in front of all others."""
-    taken = {layer.id for layer in document.layers}
-    free = next(i for i in itertools.count(1) if i not in taken)
-    return replace(document, layers=(*document.layers, Layer(free, name)))
-
-
-def set_layer(
-    document: Document, layer_id: int, *, name: str | None = None, visible: bool | None = None
-) -> Document:
-    """Rename a layer, show or hide it."""
-    layer = document.layer(layer_id)
-    changed = replace(
-        layer,
-        name=layer.name if name is None else name,
-        visible=layer.visible if visible is None else visible,
-    )
-    return document if changed == layer else document.with_layer(changed)
 
 
 def put_drawing(document: Document, layer_id: int, frame: int, drawing: Drawing) -> Document:
@@ -135,7 +138,7 @@ def put_drawing(document: Document, layer_id: int, frame: int, drawing: Drawing)
     span = replace(neighbour.span, pairs=(), pins=(), turns=0) if neighbour else Span()
     keyframes = list(layer.keyframes)
     insort(keyframes, Keyframe(frame, drawing, span), key=lambda k: k.frame)
-    document = _with_keyframes(document, layer, keyframes)
+    document = with_keyframes(document, layer, keyframes)
     return set_length(document, max(document.length, frame))
 
 
@@ -143,7 +146,7 @@ def delete_keyframe(document: Document, layer_id: int, frame: int) -> Document:
     """Take a keyframe away; the spans on both sides become one."""
     layer = document.layer(layer_id)
     keyframe_of(layer, frame)
-    return _with_keyframes(document, layer, [k for k in layer.keyframes if k.frame != frame])
+    return with_keyframes(document, layer, [k for k in layer.keyframes if k.frame != frame])
 
 
 def move_keyframe(document: Document, layer_id: int, frame: int, to: int) -> Document:
@@ -156,7 +159,7 @@ def move_keyframe(document: Document, layer_id: int, frame: int, to: int) -> Doc
         raise DocumentError(f"frame {to} of {layer.name!r} already holds a keyframe")
     rest = [k for k in layer.keyframes if k.frame != frame]
     insort(rest, replace(keyframe, frame=to), key=lambda k: k.frame)
-    document = _with_keyframes(document, layer, rest, moved={to: frame})
+    document = with_keyframes(document, layer, rest, moved={to: frame})
     return set_length(document, max(document.length, to))
 
 
@@ -271,8 +274,10 @@ def set_span(
     easing: Easing | None = None,
     turns: int | None = None,
     repair: bool | None = None,
+    placement: str | None = None,
+    hold: bool | None = None,
 ) -> Document:
-    """Change how the span that begins at `frame` moves."""
+    """Change how the span that begins at `frame` moves; its timing chart is changed in timing_edits.py."""
     layer = document.layer(layer_id)
     keyframe = keyframe_of(layer, frame)
     span = keyframe.span
@@ -282,6 +287,8 @@ def set_span(
         easing=span.easing if easing is None else easing,
         turns=span.turns if turns is None else turns,
         repair=span.repair if repair is None else repair,
+        placement=span.placement if placement is None else placement,
+        hold=span.hold if hold is None else hold,
     )
     return document if changed == span else with_keyframe(document, layer, replace(keyframe, span=changed))
 
@@ -299,24 +306,6 @@ def _style_near(layer: Layer, frame: int) -> Style:
     before, after = layer.around(frame)
     near = before or after
     return near.drawing.style if near else Style()
-
-
-def _with_keyframes(
-    document: Document, layer: Layer, keyframes: list[Keyframe], *, moved: Mapping[int, int] = NOT_MOVED
-) -> Document:
-    """Set all keyframes; a span whose keyframe after is another one now forgets its pairs and arcs.
-
-    `moved` tells the frame that a keyframe came from. Drawings cannot tell: several keyframes may share one.
-    """
-    followers = {a.frame: b.drawing for a, b in itertools.pairwise(layer.keyframes)}
-    renewed = []
-    for k, following in itertools.zip_longest(keyframes, keyframes[1:]):
-        follower = following.drawing if following else None
-        if (k.span.pairs or k.span.pins) and followers.get(moved.get(k.frame, k.frame)) is not follower:
-            pins = tuple(replace(p, handles=None) for p in k.span.pins) if following else ()
-            k = replace(k, span=replace(k.span, pairs=(), pins=pins))
-        renewed.append(k)
-    return document.with_layer(replace(layer, keyframes=tuple(renewed)))
 
 
 def _with_changed_outline(

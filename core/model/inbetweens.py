@@ -1,6 +1,5 @@
-"""From a document to the picture of a frame: matched once, planned once, evaluated often."""
+"""From two keyframes to their in-betweens: matched once, planned once, evaluated often; in time: see motion.py."""
 
-from collections import OrderedDict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -12,8 +11,8 @@ from core.correspondence.pairing import Correspondence
 from core.geometry.outline import FloatArray, locate, points_at
 from core.methods.plan import AlignedPair
 from core.model.color import mix_colors
-from core.model.document import Document, Keyframe, Layer, Span, ratio_in_span
-from core.model.drawing import Drawing, Outline, Style
+from core.model.document import Span
+from core.model.drawing import WIDEST_STROKE, Drawing, Outline, Style
 from core.model.pins import PlannedOutline, planned_pins
 from core.model.solving import Paths, solve_paths
 
@@ -27,10 +26,13 @@ class Picture:
     outlines : tuple of ((n, 2) float array, bool)
         Vertices in stage px, and whether the outline is closed.
     style : Style
+    opacity : float
+        Of the whole picture, 0 to 1: the layer's times the drawing's.
     """
 
     outlines: tuple[tuple[FloatArray, bool], ...]
     style: Style
+    opacity: float = 1.0
 
 
 Rows = tuple[FloatArray, FloatArray]
@@ -108,12 +110,16 @@ class SpanPlan:
 
 
 def mix_styles(before: Style, after: Style, t: float) -> Style:
-    """Return the style of an in-between: colours mixed in OKLab, the width linear."""
+    """Return the style of an in-between: colours mixed in OKLab, width and opacity linear, in range."""
     if before == after:
         return before
     width = (1 - t) * before.width + t * after.width
+    opacity = (1 - t) * before.opacity + t * after.opacity
     return Style(
-        mix_colors(before.fill, after.fill, t), mix_colors(before.stroke, after.stroke, t), max(width, 0.0)
+        mix_colors(before.fill, after.fill, t),
+        mix_colors(before.stroke, after.stroke, t),
+        min(max(width, 0.0), WIDEST_STROKE),
+        min(max(opacity, 0.0), 1.0),
     )
 
 
@@ -221,54 +227,3 @@ def _nearest_point(outline: Outline, other: Drawing) -> FloatArray:
             best = points_at(candidate.points, position, closed=candidate.closed)[0]
             least = float(distance[0])
     return best
-
-
-class PlanCache:
-    """Plans by what they were made of, the longest unused forgotten first.
-
-    Documents share their parts, so an edit leaves the drawings of all other spans the very same objects, and
-    their plans are found here again. `solved` counts how many were made.
-    """
-
-    def __init__(self, capacity: int = 512) -> None:
-        self.capacity = capacity
-        self.solved = 0
-        self._plans: OrderedDict[tuple[int, int, int], tuple[Drawing, Drawing, Span, SpanPlan]] = OrderedDict()
-
-    def plan(self, before: Keyframe, after: Keyframe) -> SpanPlan:
-        """Return the plan of the span between two neighbouring keyframes."""
-        key = (id(before.drawing), id(after.drawing), id(before.span))
-        found = self._plans.get(key)
-        if found is None:
-            self.solved += 1
-            plan = plan_span(before.drawing, after.drawing, before.span)
-            # the parts are kept too, so that no other object can take their ids
-            found = self._plans[key] = (before.drawing, after.drawing, before.span, plan)
-        self._plans.move_to_end(key)
-        while len(self._plans) > self.capacity:
-            self._plans.popitem(last=False)
-        return found[3]
-
-
-def keyframe_picture(drawing: Drawing) -> Picture:
-    """Return the picture of a drawing itself."""
-    return Picture(tuple((o.points, o.closed) for o in drawing.outlines), drawing.style)
-
-
-def picture_at(layer: Layer, frame: float, plans: PlanCache) -> Picture | None:
-    """Return what a layer shows at a frame: nothing before its first keyframe, the last drawing after its last."""
-    keyframe = layer.keyframe_at(int(frame)) if frame == int(frame) else None
-    if keyframe is not None:
-        return keyframe_picture(keyframe.drawing)
-    before, after = layer.around(frame)
-    if before is None:
-        return None
-    if after is None:
-        return keyframe_picture(before.drawing)
-    return plans.plan(before, after).picture(float(before.span.easing.t_at(ratio_in_span(before, after, frame))))
-
-
-def pictures_at(document: Document, frame: float, plans: PlanCache) -> tuple[Picture, ...]:
-    """Return the pictures of all visible layers, from the back to the front."""
-    found = (picture_at(layer, frame, plans) for layer in document.layers if layer.visible)
-    return tuple(p for p in found if p is not None)

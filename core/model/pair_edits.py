@@ -98,11 +98,14 @@ def _outlines(
     return a, b
 
 
-def _with_pair(document: Document, layer_id: int, frame: int, pair: OutlinePair) -> Document:
+def _with_pair(
+    document: Document, layer_id: int, frame: int, pair: OutlinePair, *, even_locked: bool = False
+) -> Document:
     layer = document.layer(layer_id)
     keyframe = keyframe_of(layer, frame)
     others = tuple(p for p in keyframe.span.pairs if p.before != pair.before and p.after != pair.after)
-    return with_keyframe(document, layer, replace(keyframe, span=replace(keyframe.span, pairs=(*others, pair))))
+    changed = replace(keyframe, span=replace(keyframe.span, pairs=(*others, pair)))
+    return with_keyframe(document, layer, changed, even_locked=even_locked)
 
 
 def set_muted(
@@ -149,7 +152,7 @@ def store_answer(
         return document
     _outlines(document, layer_id, frame, before_id, after_id)
     pair = OutlinePair(before_id, after_id, old.anchors if old else (), correspondence)
-    return _with_pair(document, layer_id, frame, pair)
+    return _with_pair(document, layer_id, frame, pair, even_locked=True)
 
 
 def pair_outlines_by_hand(

@@ -87,7 +87,7 @@ def test_scrubbing_does_not_begin_a_long_repair_anew(crossing, qtbot):
             crossing.session.go_to(frame)
             qtbot.wait(30)
     crossing.settle(qtbot)
-    assert not crossing.editor.preview.waiting(crossing.session.span_keyframes()[0])
+    assert not crossing.editor.preview.waiting(crossing.session.span_keyframes()[0], crossing.session.layer.id)
 
 
 # the strip

@@ -51,7 +51,7 @@ def pair(hand):
 
 def current(hand):
     before, after = hand.session.span_keyframes()
-    return hand.editor.preview.correspondence(before, after, (1, 1))
+    return hand.editor.preview.correspondence(before, after, hand.session.layer.id, (1, 1))
 
 
 def apart(one, other):

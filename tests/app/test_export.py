@@ -22,7 +22,7 @@ from app.export.settings import ExportSettings
 from app.painting import render_frame
 from core.errors import InkbetweenError, StorageError
 from core.io.project import save
-from core.model.inbetweens import PlanCache
+from core.model.motion import PlanCache
 from tests.app.sketches import film
 
 RGBA64 = QImage.Format.Format_RGBA64_Premultiplied

@@ -34,7 +34,7 @@ from core.io.project import save
 from core.model.document import Document, Keyframe, Layer, Span, Stage
 from core.model.drawing import Drawing, Outline, Style
 from core.model.easing import Easing
-from core.model.inbetweens import PlanCache, picture_at
+from core.model.motion import PlanCache, picture_at
 from tests.app.sketches import film, square
 
 ROOT = Path(__file__).parents[2]
@@ -463,7 +463,7 @@ def test_shapes_between_those_that_are_kept_are_off_by_less_than_can_be_seen(met
     for stretch in shape_layers(film_)[0].stretches:
         times = [m.time for m in stretch.moments]
         for frame in range(int(stretch.start), int(stretch.end)):
-            expected = picture_at(document.layers[0], frame + 1, plans)
+            expected = picture_at(document, document.layers[0], frame + 1, plans)
             ratio = (frame - times[0]) / (times[-1] - times[0]) if len(times) == 2 else 0.0
             for i, (points, _) in enumerate(expected.outlines):
                 shapes = np.array([m.picture.outlines[i][0] for m in stretch.moments])
@@ -588,7 +588,7 @@ def test_own_presets_come_back_and_damaged_ones_are_left_out():
 def test_pictures_are_the_same_when_every_number_is():
     document = film()
     plans = PlanCache()
-    a, b = (picture_at(document.layers[0], f, plans) for f in (2, 3))
+    a, b = (picture_at(document, document.layers[0], f, plans) for f in (2, 3))
     assert same_pictures((a,), (a,))
     assert not same_pictures((a,), (b,))
     assert not same_pictures((a,), ())

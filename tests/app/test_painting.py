@@ -10,7 +10,8 @@ from app.painting import outlines_path, paint_outlines, paint_picture, render_fr
 from core.errors import StorageError
 from core.model.document import Stage
 from core.model.drawing import Style
-from core.model.inbetweens import Picture, PlanCache
+from core.model.inbetweens import Picture
+from core.model.motion import PlanCache
 from tests.app.sketches import film, ring, square
 
 IDENTITY = QTransform()

@@ -123,7 +123,7 @@ def qpainter_and_pyav(document):
     from PySide6.QtGui import QColor, QImage, QPainter, QPen, QPolygonF
 
     from app.painting import stage_transform
-    from core.model.inbetweens import PlanCache, pictures_at
+    from core.model.motion import PlanCache, pictures_at
 
     plans = PlanCache()
     frames = [pictures_at(document, f, plans) for f in range(1, FRAMES + 1)]
@@ -156,7 +156,7 @@ def synfig(document):
     """Return seconds a frame of Synfig for the same polygons, None where it is not installed."""
     if shutil.which("synfig") is None:
         return None
-    from core.model.inbetweens import PlanCache, pictures_at
+    from core.model.motion import PlanCache, pictures_at
 
     with tempfile.TemporaryDirectory() as folder:
         sif = Path(folder) / "walk.sif"

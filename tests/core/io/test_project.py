@@ -15,18 +15,32 @@ from core.correspondence.pairing import Correspondence
 from core.errors import DocumentError, FileFormatError, InkbetweenError, StorageError
 from core.io.project import LARGEST_FILE, decode, encode, load, save
 from core.methods.plan import METHODS
-from core.model.document import Anchor, Document, Keyframe, Layer, OutlinePair, Reference, Span, Stage
+from core.model.document import PLACEMENTS, Anchor, Document, Keyframe, Layer, OutlinePair, Reference, Span, Stage
 from core.model.drawing import Drawing, Outline, Style
-from core.model.easing import Easing
+from core.model.easing import PRESETS, Easing, Knot, through
 
 DATA = Path(__file__).resolve().parents[2] / "data"
 
 COORDINATE = st.floats(-1e9, 1e9, allow_subnormal=False)
 POINT = st.tuples(COORDINATE, COORDINATE)
-COLOR = st.none() | st.from_regex(r"#[0-9a-f]{6}([0-9a-f]{2})?", fullmatch=True)
-STYLE = st.builds(Style, COLOR, COLOR, st.floats(0, 10_000))
 RATIO = st.floats(0, 1)
-EASING = st.builds(Easing, RATIO, st.floats(-4, 5), RATIO, st.floats(-4, 5))
+COLOR = st.none() | st.from_regex(r"#[0-9a-f]{6}([0-9a-f]{2})?", fullmatch=True)
+STYLE = st.builds(Style, COLOR, COLOR, st.floats(0, 10_000), RATIO)
+EASING = st.one_of(
+    st.builds(Easing, RATIO, st.floats(-4, 5), RATIO, st.floats(-4, 5)),
+    st.sets(st.integers(1, 99), max_size=5).map(lambda s: through([(x / 100, (x % 7) / 7) for x in sorted(s)])),
+    st.just(PRESETS["bounce"]),
+)
+
+
+TIMING = st.fixed_dictionaries(
+    {
+        "placement": st.sampled_from(PLACEMENTS),
+        "hold": st.booleans(),
+        "step": st.integers(1, 1000),
+        "exposures": st.lists(st.integers(1, 50), max_size=6).map(tuple),
+    }
+)
 
 
 @st.composite
@@ -67,9 +81,10 @@ def layers(draw, layer_id):
         matching = [(a, b) for a, b in zip(drawing.outlines, following, strict=False) if a.closed == b.closed]
         fixed = tuple(draw(pairs(a, b)) for a, b in matching if draw(st.booleans()))
         method = draw(st.sampled_from(["linear", "intrinsic"]))
-        span = Span(method, draw(EASING), draw(st.integers(-100, 100)), fixed)
-        keyframes.append(Keyframe(frame, drawing, span))
-    return Layer(layer_id, draw(st.text(max_size=20)), draw(st.booleans()), tuple(keyframes))
+        span = Span(method, draw(EASING), draw(st.integers(-100, 100)), fixed, **draw(TIMING))
+        keyframes.append(Keyframe(frame, drawing, span, smooth=draw(st.booleans())))
+    seen = draw(st.booleans()), tuple(keyframes), draw(st.booleans()), draw(RATIO), draw(COLOR)
+    return Layer(layer_id, draw(st.text(max_size=20)), *seen)
 
 
 @st.composite
@@ -78,7 +93,10 @@ def documents(draw):
     stage = Stage(draw(side), draw(side), draw(COLOR))
     rate = draw(st.fractions(Fraction(1, 1000), 1000, max_denominator=1001))
     ids = draw(st.lists(st.integers(1, 2**31 - 1), min_size=1, max_size=2, unique=True))
-    return Document(stage, rate, draw(st.integers(1, 100_000)), tuple(draw(layers(i)) for i in ids))
+    made = [draw(layers(i)) for i in ids]
+    if len(made) > 1 and draw(st.booleans()):
+        made[1] = replace(made[1], parent=made[0].id)
+    return Document(stage, rate, draw(st.integers(1, 100_000)), tuple(made))
 
 
 def rich():
@@ -88,10 +106,13 @@ def rich():
     line = Outline(7, np.array([(0, 0), (5, 5)]), closed=False)
     kept = Correspondence(np.array([0.0, 1.5]), np.array([2.0, 0.25]), (4, 3), flipped=True)
     fixed = (OutlinePair(1, 2, (Anchor(0.0, 2.0), Anchor(1.5, 0.25)), kept), OutlinePair(7, 7))
-    span = Span("linear", Easing(0.25, -0.5, 0.75, 1.5), -2, fixed)
-    first = Keyframe(1, Drawing((wave, hole, line), Style("#12345678", "#abcdef", 2.5)), span)
+    easing = Easing(0.25, -0.5, 0.75, 1.5, (Knot(0.5, 0.75, 0.25, 0.75, 0.625, 0.75),))
+    timing = {"placement": "centroid", "hold": True, "step": 2, "exposures": (3, 1)}
+    span = Span("linear", easing, -2, fixed, **timing)
+    style = Style("#12345678", "#abcdef", 2.5, 0.5)
+    first = Keyframe(1, Drawing((wave, hole, line), style), span, smooth=True)
     last = Keyframe(48, Drawing((hole, line), Style(None, None, 0.0)), Span("intrinsic"))
-    front = Layer(3, "Flügel ✎", True, (first, last))
+    front = Layer(3, "Flügel ✎", True, (first, last), True, 0.25, "#00ff00", 1)
     stage = Stage(1280, 720, "#101216")
     return Document(stage, Fraction(24000, 1001), 60, (Layer(1, "", False), front))
 
@@ -156,7 +177,13 @@ def test_a_muted_anchor_that_is_not_there_is_refused():
 
 
 def test_a_file_of_version_1_opens_for_ever():
-    assert load(DATA / "version-1.inkb") == rich()
+    first, last = rich().layers[1].keyframes
+    span = replace(first.span, easing=replace(first.span.easing, knots=()))
+    span = replace(span, placement="still", hold=False, step=1, exposures=())
+    drawing = replace(first.drawing, style=replace(first.drawing.style, opacity=1.0))
+    plain = replace(first, drawing=drawing, span=span, smooth=False)
+    front = Layer(3, rich().layers[1].name, True, (plain, last))
+    assert load(DATA / "version-1.inkb") == rich().with_layer(front)
 
 
 def test_every_truncation_is_refused():
@@ -239,7 +266,7 @@ def test_deep_and_empty_files_are_refused(content):
 
 def test_a_newer_version_is_named():
     newer = b'{"format": "inkbetween", "version": 7, "something new": {}}'
-    with pytest.raises(FileFormatError, match=r"newer Inkbetween \(file version 7, this one reads up to 1\)"):
+    with pytest.raises(FileFormatError, match=r"newer Inkbetween \(file version 7, this one reads up to 2\)"):
         decode(newer)
 
 
@@ -279,6 +306,14 @@ NAMED = [
     ([*KEYFRAME, "drawing", "outlines", 0, "points", 1, 0], 1e300, r"vertex 1 .*outlines\[0\]`"),
     ([*KEYFRAME, "drawing", "outlines", 0, "id"], 2, "have the id 2"),
     ([*KEYFRAME, "span", "method"], "magic", r"'magic'.*keyframes\[0\].span`"),
+    ([*KEYFRAME, "span", "step"], 0, r"for 0 frames.*keyframes\[0\].span`"),
+    ([*KEYFRAME, "span", "exposures"], [3, 0], r"1 to 100000 frames.*keyframes\[0\].span`"),
+    ([*KEYFRAME, "span", "placement"], "up", r"'up'.*keyframes\[0\].span`"),
+    ([*KEYFRAME, "span", "knots", 0, 4], 0.25, r"0.5 and 1 reach beyond.*keyframes\[0\].span`"),
+    ([*KEYFRAME, "drawing", "style", "opacity"], 2, r"opacity.*2.*keyframes\[0\].drawing`"),
+    (["layers", 1, "opacity"], -1, r"opacity.*-1.*layers\[1\]`"),
+    (["layers", 1, "parent"], 9, "follows layer 9, which is not there"),
+    (["layers", 1, "parent"], 3, "cannot follow a layer that follows it"),
     ([*KEYFRAME, "span", "easing"], [2, 0, 1, 1], r"ratios 2.*keyframes\[0\].span`"),
     ([*KEYFRAME, "span", "pairs", 0, "before"], 5, r"no outline 5.*span.pairs\[0\]`"),
     ([*KEYFRAME, "span", "pairs", 0, "after"], 7, "closed outline is paired with an open one|in two pairs"),
@@ -295,14 +330,20 @@ def test_what_is_wrong_is_named_with_its_place(path, value, message):
         decode(field(path, value))
 
 
-@pytest.mark.parametrize("path", [p for p in PLACES if isinstance(p[-1], str) and p[-1] != "anchors"])
-def test_every_field_is_needed_but_those_of_pairs(path):
+LEFT_OUT = (
+    *("correspondence", "anchors", "knots", "placement", "hold", "step", "exposures"),
+    *("opacity", "smooth", "locked", "color", "parent"),
+)
+
+
+@pytest.mark.parametrize("path", [p for p in PLACES if isinstance(p[-1], str)])
+def test_every_field_is_needed_but_those_that_have_a_usual_value(path):
     content = json.loads(encode(rich()))
     place = content
     for key in path[:-1]:
         place = place[key]
     del place[path[-1]]
-    if path[-1] == "correspondence":
+    if path[-1] in LEFT_OUT:
         decode(json.dumps(content).encode())
     else:
         with pytest.raises(FileFormatError):

@@ -7,6 +7,8 @@ from core.model.document import Keyframe, Span
 from core.model.drawing import Drawing, Outline
 from core.model.easing import PRESETS
 from core.model.inbetweens import PairMatch, SpanMatch, plan_span
+from core.model.motion import SpanMotion
+from core.model.smooth import Bend
 
 SQUARE = np.array([(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0)])
 TURN = np.array([(100.0, 100.0), (0.0, 100.0), (0.0, 0.0), (100.0, 0.0)])
@@ -16,7 +18,7 @@ BENT = BAR[[2, 1, 0, 3]] + (0.0, 20.0)
 
 
 def span(*ends, method="linear", frames=(5, 15), **fields):
-    """Two keyframes and their plan; corner goes to corner of the same number."""
+    """A span between two keyframes; corner goes to corner of the same number."""
     drawings = [Drawing((Outline(1, points),)) if points is not None else Drawing() for points in ends]
     before = Keyframe(frames[0], drawings[0], Span(method, **fields))
     after = Keyframe(frames[1], drawings[1])
@@ -25,11 +27,11 @@ def span(*ends, method="linear", frames=(5, 15), **fields):
         places = np.arange(len(ends[0]), dtype=float)
         answer = Correspondence(places, places, (len(ends[0]), len(ends[1])), True)
         matched = SpanMatch((PairMatch(1, 1, answer),))
-    return before, after, plan_span(drawings[0], drawings[1], before.span, matched)
+    return SpanMotion(before, after, plan_span(drawings[0], drawings[1], before.span, matched), Bend())
 
 
 def test_every_in_between_is_certified_under_its_frame_of_the_film():
-    made = certify_span(*span(SQUARE, SQUARE + 40))
+    made = certify_span(span(SQUARE, SQUARE + 40))
     assert made.frames == tuple(range(6, 15))
     assert made.certificate.problems == ()
     assert [made.severity_at(f) for f in made.frames] == [""] * 9
@@ -38,12 +40,12 @@ def test_every_in_between_is_certified_under_its_frame_of_the_film():
 
 
 def test_times_are_the_eased_ones():
-    made = certify_span(*span(SQUARE, SQUARE * 2, easing=PRESETS["slow in and out"]))
+    made = certify_span(span(SQUARE, SQUARE * 2, easing=PRESETS["slow in and out"]))
     np.testing.assert_allclose(made.certificate.times, PRESETS["slow in and out"].t_at(np.arange(1, 10) / 10))
 
 
 def test_a_square_that_turns_inside_itself_is_small_in_the_middle_frames():
-    made = certify_span(*span(SQUARE, TURN))
+    made = certify_span(span(SQUARE, TURN))
     assert made.severity_at(6) == "warning"
     assert made.severity_at(10) != ""
     worst = made.worst[9]
@@ -52,7 +54,7 @@ def test_a_square_that_turns_inside_itself_is_small_in_the_middle_frames():
 
 
 def test_crossings_are_errors_and_told_without_their_time():
-    made = certify_span(*span(BAR, BENT))
+    made = certify_span(span(BAR, BENT))
     crossed = [p for p in made.certificate.problems if p.kind == "crossing"]
     assert {p.severity for p in crossed} == {"error"}
     assert {made.frame_of(p) for p in crossed} <= set(made.frames)
@@ -70,23 +72,23 @@ def test_crossings_are_errors_and_told_without_their_time():
 
 @pytest.mark.parametrize(("ends", "frames"), [((SQUARE, TURN), (5, 6)), ((None, None), (5, 15))])
 def test_where_nothing_moves_there_is_nothing_to_find(ends, frames):
-    made = certify_span(*span(*ends, frames=frames))
+    made = certify_span(span(*ends, frames=frames))
     assert len(made.frames) == frames[1] - frames[0] - 1
     assert made.certificate.ok
     assert len(made.certificate.area) == len(made.frames)
 
 
 def test_a_note_of_the_plan_is_a_problem_of_the_whole_span():
-    before, after, plan = span(BAR, BAR[::-1] + 10.0, repair=True)
+    motion = span(BAR, BAR[::-1] + 10.0, repair=True)
+    plan = motion.plan
     assert plan.paths.notes
-    made = certify_span(before, after, plan)
+    made = certify_span(motion)
     (note,) = (p for p in made.certificate.problems if p.kind == "fallback")
     assert made.frame_of(note) is None
     assert finding(note) == plan.paths.notes[0]
 
 
 def test_the_stretch_of_an_edge_is_told_against_both_keyframes():
-    _, _, plan = span(SQUARE, SQUARE * 3)
-    pair = plan.links[0].aligned
+    pair = span(SQUARE, SQUARE * 3).plan.links[0].aligned
     np.testing.assert_allclose(edge_stretch(pair, SQUARE * 2, 0.5), 1.0)
     np.testing.assert_allclose(edge_stretch(pair, SQUARE * 4, 0.5), 2.0, rtol=2e-3)

@@ -11,14 +11,12 @@ from core.model.document import Anchor, Document, Keyframe, Layer, OutlinePair, 
 from core.model.drawing import Drawing, Outline, Style
 from core.model.easing import PRESETS, Easing
 from core.model.inbetweens import (
-    PlanCache,
     match_span,
     mix_styles,
     paired_outlines,
-    picture_at,
-    pictures_at,
     plan_span,
 )
+from core.model.motion import PlanCache, picture_at, pictures_at
 
 SQUARE = np.array([(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0)])
 HOLE = SQUARE * 0.4 + 30
@@ -37,7 +35,7 @@ def film(*drawings, span=None):
 
 
 def picture(document, frame, plans=None):
-    return picture_at(document.layers[0], frame, plans or PlanCache())
+    return picture_at(document, document.layers[0], frame, plans or PlanCache())
 
 
 METHODS = pytest.mark.parametrize("method", ["linear", "intrinsic"])

@@ -8,7 +8,8 @@ from core.geometry.outline import points_at
 from core.io.project import decode, encode
 from core.model import edits
 from core.model.document import Document, Span
-from core.model.inbetweens import PlanCache, plan_span
+from core.model.inbetweens import plan_span
+from core.model.motion import PlanCache
 from core.model.pins import SpanPin
 
 U = np.linspace(0, 2 * np.pi, 24, endpoint=False)
