@@ -193,7 +193,7 @@ class _Reader:
         if layer.get("hd"):
             return
         if kind == 1 and self._is_background(layer):
-            alpha = round(vector_at(keys_of(layer["ks"].get("o")), 0, 1, 100.0)[0] * 2.55)
+            alpha = round(float(vector_at(keys_of(layer["ks"].get("o")), 0, 1, 100.0)[0]) * 255 / 100)
             self.background = str(layer["sc"])[:7].lower() + ("" if alpha >= 255 else f"{max(alpha, 0):02x}")
             return
         if kind != 4:

@@ -122,12 +122,11 @@ def _are_straight(curves: ComplexArray) -> npt.NDArray[np.bool_]:
     """Whether each curve is a straight line at every time: its handles lie on the way from end to end."""
     chord = curves[..., 3] - curves[..., 0]
     first, last = curves[..., 1] - curves[..., 0], curves[..., 3] - curves[..., 2]
-    on_way = np.ones(chord.shape, dtype=bool)
+    square = np.abs(chord) ** 2
+    found = np.full(chord.shape[1], True)
     for handle in (first, last):
         along, aside = (handle * chord.conj()).real, (handle * chord.conj()).imag
-        square = np.abs(chord) ** 2
-        on_way &= (np.abs(aside) <= 1e-9 * square) & (along >= 0) & (along <= square)
-    found: npt.NDArray[np.bool_] = on_way.all(axis=0)
+        found &= ((np.abs(aside) <= 1e-9 * square) & (along >= 0) & (along <= square)).all(axis=0)
     return found
 
 

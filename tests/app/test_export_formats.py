@@ -516,6 +516,48 @@ def test_open_outlines_are_lines_and_never_filled(tmp_path):
     assert 'fill="none" stroke="#112233" stroke-width="3"' in text
 
 
+def on_twos(length=9):
+    return moving_film(length, Span("linear", step=2))
+
+
+def test_a_span_on_twos_is_shapes_that_stay(tmp_path):
+    data = json.loads(made(on_twos(), tmp_path, "lottie").read_text())
+    paths = [x["it"][0]["ks"] for y in data["layers"] for x in y["shapes"]]
+    times = sorted(k["t"] for p in paths if p["a"] for k in p["k"])
+    assert {k.get("h") for p in paths if p["a"] for k in p["k"]} == {1}
+    begins = sorted({*times, *(y["ip"] for y in data["layers"])})
+    assert begins == [0, 2, 4, 6, 8]
+    text = made(on_twos(), tmp_path, "svg").read_text()
+    assert 'attributeName="d"' in text
+    assert 'calcMode="linear"' not in text
+
+
+def test_drawings_on_twos_are_written_once_and_counted_on_the_sheet(tmp_path):
+    out = made(on_twos(), tmp_path, "png", exposures=True)
+    assert files_in(out) == [f"arm.{n:04}.png" for n in (1, 3, 5, 7, 9)]
+    (table,) = json.loads(made(on_twos(), tmp_path, "xdts").read_text().partition("\n")[2])["timeTables"]
+    frames = [f["frame"] for f in table["fields"][0]["tracks"][0]["frames"]]
+    assert frames == [0, 2, 4, 6, 8, 9]
+
+
+def test_a_held_drawing_stays_until_the_next_keyframe(tmp_path):
+    document = moving_film(9, Span("linear", hold=True))
+    out = made(document, tmp_path, "png", exposures=True)
+    assert files_in(out) == ["arm.0001.png", "arm.0009.png"]
+    data = json.loads(made(document, tmp_path, "lottie").read_text())
+    assert sorted((x["ip"], x["op"]) for x in data["layers"]) == [(0, 8), (8, 9)]
+
+
+def test_the_opacity_of_a_layer_is_that_of_the_whole_layer(tmp_path):
+    document = moving_film(fill="#ff0000", stroke="#000000")
+    faded = replace(document, layers=(replace(document.layers[0], opacity=0.5),))
+    data = json.loads(made(faded, tmp_path, "lottie").read_text())
+    assert {x["ks"]["o"]["k"] for x in data["layers"]} == {50}
+    assert '<g opacity="0.5">' in made(faded, tmp_path, "svg-frames").joinpath("arm.0001.svg").read_text()
+    pictures, _ = decoded(made(faded, tmp_path, "apng"))
+    assert abs(pictures[0][..., 3].max() - 127.5) <= 1
+
+
 # Sheets
 
 

@@ -68,7 +68,7 @@ def films():
 
 
 def everything():
-    """Return a film with a hole, strokes, an open line, colours that change, and a layer that comes late."""
+    """Return a film with a hole, strokes, an open line, changing colours, twos, a hold and a late layer."""
 
     def box(left, top, side):
         return np.array([[left, top], [left + side, top], [left + side, top + side], [left, top + side]], float)
@@ -86,7 +86,16 @@ def everything():
         Keyframe(7, Drawing((Outline(1, line, closed=False),), Style("#8040c0", None, 10.0)), Span("intrinsic")),
         Keyframe(20, Drawing((Outline(1, bent, closed=False),), Style("#8040c0", None, 10.0))),
     )
-    layers = (Layer(1, "ring", keyframes=first), Layer(2, "line", keyframes=late))
+    twos = (
+        Keyframe(1, Drawing((Outline(1, box(360, 40, 80)),), two), Span("intrinsic", step=2)),
+        Keyframe(12, Drawing((Outline(1, box(380, 200, 60)),), two), Span(hold=True)),
+        Keyframe(20, Drawing((Outline(1, box(330, 120, 90)),), one)),
+    )
+    layers = (
+        Layer(1, "ring", keyframes=first),
+        Layer(2, "line", keyframes=late),
+        Layer(3, "twos", keyframes=twos, opacity=0.7),
+    )
     return Document(Stage(480, 360), Fraction(24), 24, layers)
 
 
