@@ -2,10 +2,14 @@
 
 import contextlib
 import os
+import re
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
 from core.errors import InkbetweenError, StorageError
+
+PART = re.compile(r"\.(.+)\.(\d{1,10})\.part")
 
 
 class InTheWayError(InkbetweenError):
@@ -65,8 +69,35 @@ def reason(error: OSError) -> str:
     return (error.strerror or str(error)).lower()
 
 
+def _sweep(paths: list[Path]) -> None:
+    """Take away what exports to these paths have left half done, if their programs have been killed."""
+    if os.name != "posix":
+        return
+    names: dict[Path, set[str]] = {}
+    for path in paths:
+        names.setdefault(path.parent, set()).add(path.name[:100])
+    for folder, wanted in names.items():
+        with contextlib.suppress(OSError):
+            for entry in list(os.scandir(folder)):
+                found = PART.fullmatch(entry.name)
+                if found and found[1] in wanted and not _runs(int(found[2])):
+                    part = folder / entry.name
+                    shutil.rmtree(part) if entry.is_dir(follow_symlinks=False) else part.unlink()
+
+
+def _runs(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except (OSError, OverflowError):
+        return True
+    return True
+
+
 def check_free(paths: list[Path], *, replace: bool, proceed: bool) -> list[Path]:
     """Return those of `paths` that are to be written; raises InTheWayError before one would be lost unasked."""
+    _sweep(paths)
     there = [p for p in paths if os.path.lexists(p)]
     if not there or replace:
         return paths

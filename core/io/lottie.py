@@ -6,7 +6,7 @@ player. Where a group or layer turns, every frame becomes a keyframe: straight w
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
@@ -19,8 +19,9 @@ from core.correspondence.pairing import Correspondence
 from core.errors import FileFormatError, InkbetweenError, StorageError
 from core.geometry.outline import FloatArray
 from core.io.film import ImportedFilm, ImportedLayer
+from core.io.lottie_parts import Placing, Shape, ShapePath, all_keys, growth, matrix_at
 from core.io.lottie_shapes import beziers, ellipse, polygons, rectangle
-from core.io.lottie_values import Key, keys_of, number, vector_at
+from core.io.lottie_values import keys_of, number, vector_at
 from core.io.svg_notes import Notes
 from core.model.document import LONGEST, Keyframe, OutlinePair, Span
 from core.model.drawing import WIDEST_STROKE, Drawing, Outline, Style
@@ -45,66 +46,6 @@ ITEMS = {
     "tw": "twist",
     "op": "offset path",
 }
-
-
-@dataclass(frozen=True, slots=True)
-class _Placing:
-    """A transform that may move: place, anchor, scale, turn."""
-
-    place: list[Key]
-    anchor: list[Key]
-    scale: list[Key]
-    turn: list[Key]
-
-    @classmethod
-    def of(cls, ks: Any, notes: Notes) -> "_Placing":
-        place = ks.get("p")
-        if isinstance(place, dict) and "k" not in place:
-            notes("place in separate numbers")
-            place = None
-        if keys_of(ks.get("sk")) and number(keys_of(ks["sk"])[0].value):
-            notes("skew")
-        return cls(*(keys_of(v) for v in (place, ks.get("a"), ks.get("s"), ks.get("r"))))
-
-    def times(self) -> set[float]:
-        """Return the times at which something changes; every frame while it turns."""
-        found = {k.time for keys in (self.place, self.anchor, self.scale) if len(keys) > 1 for k in keys}
-        if len(self.turn) > 1:
-            first, last = math.ceil(self.turn[0].time), math.floor(self.turn[-1].time)
-            found |= {float(t) for t in range(max(first, -LONGEST), min(last, LONGEST) + 1)}
-        return found
-
-    def matrix(self, time: float) -> FloatArray:
-        """Return the (3, 3) matrix at a time."""
-        x, y = vector_at(self.place, time, 2)
-        ax, ay = vector_at(self.anchor, time, 2)
-        sx, sy = vector_at(self.scale, time, 2, 100.0) / 100
-        a = math.radians(float(vector_at(self.turn, time, 1)[0]))
-        turn = np.array([[math.cos(a) * sx, -math.sin(a) * sy], [math.sin(a) * sx, math.cos(a) * sy]])
-        whole = np.eye(3)
-        whole[:2, :2] = turn
-        whole[:2, 2] = np.array([x, y]) - turn @ (ax, ay)
-        return whole
-
-
-@dataclass(slots=True)
-class _Path:
-    """A path and the transforms it lies in, the outermost first."""
-
-    item: Any
-    placings: tuple[_Placing, ...]
-    keys: dict[str, list[Key]] = field(default_factory=dict)
-
-
-@dataclass(slots=True)
-class _Shape:
-    """Paths painted alike."""
-
-    paths: list[_Path]
-    fill: Any = None
-    stroke: Any = None
-    opacity: float = 1.0
-    name: str = ""
 
 
 def read_lottie(content: bytes | Path | str) -> ImportedFilm:
@@ -217,7 +158,7 @@ class _Reader:
         color = str(layer.get("sc", ""))
         return large and layer is self._data["layers"][-1] and len(color) == 7 and color.startswith("#")
 
-    def _placings(self, layer: Any) -> tuple[_Placing, ...]:
+    def _placings(self, layer: Any) -> tuple[Placing, ...]:
         """Return the transforms from the outermost leader to the layer itself."""
         chain, seen = [layer], {id(layer)}
         while "parent" in chain[-1]:
@@ -226,7 +167,7 @@ class _Reader:
                 break
             seen.add(id(leader))
             chain.append(leader)
-        return tuple(_Placing.of(x["ks"], self._notes) for x in reversed(chain))
+        return tuple(Placing.of(x["ks"], self._notes) for x in reversed(chain))
 
     def _opacity(self, prop: Any) -> float:
         keys = keys_of(prop)
@@ -236,16 +177,16 @@ class _Reader:
 
     # shapes
 
-    def _walk(self, items: Any, placings: tuple[_Placing, ...], depth: int, name: str) -> Iterator[_Shape]:
+    def _walk(self, items: Any, placings: tuple[Placing, ...], depth: int, name: str) -> Iterator[Shape]:
         """Yield what is painted in a group, from the front to the back; paints take the paths before them."""
         if depth > DEEPEST:
             raise FileFormatError(f"its groups lie more than {DEEPEST} deep in each other")
         for item in items:
             if item.get("ty") == "tr":
-                placings = (*placings, _Placing.of(item, self._notes))
+                placings = (*placings, Placing.of(item, self._notes))
         faded = [self._opacity(x.get("o")) for x in items if x.get("ty") == "tr"]
-        paths: list[_Path] = []
-        painted = _Shape([], opacity=faded[0] if faded else 1.0, name=name)
+        paths: list[ShapePath] = []
+        painted = Shape([], opacity=faded[0] if faded else 1.0, name=name)
         for item in items:
             kind = item.get("ty")
             if item.get("hd"):
@@ -278,13 +219,13 @@ class _Reader:
             return {**item, "c": {"k": [float(c) for c in first]}}
         return item
 
-    def _path(self, item: Any, placings: tuple[_Placing, ...]) -> _Path:
+    def _path(self, item: Any, placings: tuple[Placing, ...]) -> ShapePath:
         names = ("ks",) if item["ty"] == "sh" else ("p", "s", "r")
-        return _Path(item, placings, {n: keys_of(item.get(n)) for n in names})
+        return ShapePath(item, placings, {n: keys_of(item.get(n)) for n in names})
 
     # keyframes
 
-    def _keyframes(self, shape: _Shape, start: float, end: float, shift: float) -> tuple[Keyframe, ...]:
+    def _keyframes(self, shape: Shape, start: float, end: float, shift: float) -> tuple[Keyframe, ...]:
         """Return the keyframes of what is painted alike, empty where the layer is not seen."""
         if shape.fill is None and shape.stroke is None:
             return ()
@@ -312,7 +253,7 @@ class _Reader:
             keyframes.append(Keyframe(last, Drawing(), HELD))
         return tuple(keyframes)
 
-    def _times(self, shape: _Shape, start: float, end: float) -> list[float]:
+    def _times(self, shape: Shape, start: float, end: float) -> list[float]:
         """Return the times of the keyframes, each in another frame."""
         found = {k.time for p in shape.paths for keys in p.keys.values() if len(keys) > 1 for k in keys}
         for placing in {id(x): x for p in shape.paths for x in p.placings}.values():
@@ -328,16 +269,16 @@ class _Reader:
             if before is None or round(t) > round(before)
         ]
 
-    def _span(self, shape: _Shape, start: float, end: float) -> Span:
+    def _span(self, shape: Shape, start: float, end: float) -> Span:
         """Return how one keyframe becomes the next: held, or straight with the easing all agree on."""
-        moving = [keys for keys in _all_keys(shape) if len(keys) > 1]
+        moving = [keys for keys in all_keys(shape) if len(keys) > 1]
         here = [k for keys in moving for k, n in pairwise(keys) if k.time <= start and n.time >= end]
         if all(k.held for k in here):
             return HELD
         easings = {k.easing for keys in moving for k, n in pairwise(keys) if (k.time, n.time) == (start, end)}
         return Span("linear", easings.pop() if len(easings) == 1 and len(here) == 1 else Easing())
 
-    def _drawings(self, shape: _Shape, times: list[float]) -> list[Drawing] | None:
+    def _drawings(self, shape: Shape, times: list[float]) -> list[Drawing] | None:
         """Return a drawing for every time, None if none of the paths can be drawn."""
         outlines: list[list[Outline]] = [[] for _ in times]
         for path in shape.paths:
@@ -354,20 +295,20 @@ class _Reader:
         self._vertices += sum(len(o.points) for row in outlines for o in row)
         if self._vertices > MOST_VERTICES:
             raise FileFormatError(f"it would become more than {MOST_VERTICES} vertices; simplify it first")
-        style = self._style(shape, _growth(shape, times[0]))
+        style = self._style(shape, growth(shape, times[0]))
         return [Drawing(tuple(row), style) for row in outlines]
 
-    def _moved(self, path: _Path, times: list[float]) -> tuple[list[FloatArray], bool]:
+    def _moved(self, path: ShapePath, times: list[float]) -> tuple[list[FloatArray], bool]:
         if path.item["ty"] == "sh":
             shapes = beziers(path.keys["ks"], times)
         else:
             shapes = (rectangle if path.item["ty"] == "rc" else ellipse)(path.item, times, path.keys)
-        matrices = [_matrix(path.placings, t) for t in times]
+        matrices = [matrix_at(path.placings, t) for t in times]
         scale = max(math.sqrt(abs(np.linalg.det(m[:2, :2]))) for m in matrices)
         flat = polygons(shapes, scale)
         return [p @ m[:2, :2].T + m[:2, 2] for p, m in zip(flat, matrices, strict=True)], shapes[0].closed
 
-    def _style(self, shape: _Shape, scale: float) -> Style:
+    def _style(self, shape: Shape, scale: float) -> Style:
         fill, stroke = (self._color(p, shape.opacity) if p else None for p in (shape.fill, shape.stroke))
         width = Style().width
         if shape.stroke:
@@ -387,25 +328,6 @@ class _Reader:
         alpha = self._opacity(paint.get("o")) * opacity
         channels = [round(255 * min(max(float(c), 0.0), 1.0)) for c in (*shade, alpha)]
         return "#" + bytes(channels[:3] if channels[3] == 255 else channels).hex()
-
-
-def _all_keys(shape: _Shape) -> Iterator[list[Key]]:
-    for path in shape.paths:
-        yield from path.keys.values()
-    for placing in {id(x): x for p in shape.paths for x in p.placings}.values():
-        yield from (placing.place, placing.anchor, placing.scale, placing.turn)
-
-
-def _matrix(placings: tuple[_Placing, ...], time: float) -> FloatArray:
-    whole = np.eye(3)
-    for placing in placings:
-        whole = whole @ placing.matrix(time)
-    return whole
-
-
-def _growth(shape: _Shape, time: float) -> float:
-    """Return how much wider strokes become by the transforms."""
-    return math.sqrt(abs(float(np.linalg.det(_matrix(shape.paths[0].placings, time)[:2, :2]))))
 
 
 def _pairs(drawing: Drawing) -> tuple[OutlinePair, ...]:

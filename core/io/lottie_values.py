@@ -1,6 +1,7 @@
 """Values of Lottie that may change in time: still, or with keyframes and an easing between them."""
 
 import math
+from bisect import bisect_right
 from dataclasses import dataclass
 from typing import Any
 
@@ -86,7 +87,7 @@ def share_at(keys: list[Key], time: float) -> tuple[int, float]:
     """Return the keyframe that a time follows and the eased share of the way to the next one."""
     if time <= keys[0].time or len(keys) == 1:
         return 0, 0.0
-    index = max(i for i, k in enumerate(keys) if k.time <= time)
+    index = bisect_right(keys, time, key=lambda k: k.time) - 1
     key = keys[index]
     if index == len(keys) - 1 or key.held:
         return index, 0.0

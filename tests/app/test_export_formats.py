@@ -292,6 +292,18 @@ def test_a_killed_export_leaves_nothing_half_under_its_name_and_no_process(form,
     assert wait_for(lambda: not any(Path(f"/proc/{pid}").exists() for pid in painters))
 
 
+def test_what_a_killed_export_has_left_half_done_goes_with_the_next_one(tmp_path):
+    ended = subprocess.run(
+        [sys.executable, "-c", "import os; print(os.getpid())"], capture_output=True, text=True, check=True
+    )
+    dead = ended.stdout.strip()
+    parts = [f".arm.webp.{dead}.part", f".arm.webp.{os.getppid()}.part", f".other.webp.{dead}.part"]
+    for name in parts:
+        (tmp_path / name).write_bytes(b"half")
+    made(moving_film(2), tmp_path, "webp")
+    assert files_in(tmp_path) == sorted([*parts[1:], "arm.webp"])
+
+
 def wait_for(condition, seconds=20):
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline and not condition():
