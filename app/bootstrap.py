@@ -21,6 +21,7 @@ from app.incoming import Incoming
 from app.playback import Playback
 from app.preview.alternatives import AlternativesPreview
 from app.preview.certificates import CertificatePreview
+from app.preview.prefetch import Prefetch
 from app.preview.spans import SpanPreview
 from app.session import Selection, Session
 from app.settings import Settings
@@ -28,7 +29,6 @@ from app.theme import icon, palette, system_theme
 from app.view import LINES, ViewState
 from app.window import Window
 from core.model.edits import clear_anchors, clear_pins, set_stage, solve_again
-from core.model.motion import PlanCache
 
 ARRANGEMENT_ACTIONS = {"overlaid": "view.overlaid", "side by side": "view.side", "compare": "view.compare"}
 THEME_ACTIONS = {"system": "view.theme_system", "light": "view.theme_light", "dark": "view.theme_dark"}
@@ -60,10 +60,10 @@ class Editor(QObject):
         self.view_state = ViewState(self.settings, self)
         self.playback = Playback(self.session, self)
         self.clipboard = Clipboard()
-        self.plans = PlanCache()
         theme = system_theme(self.settings.text("theme", "system"))
         self.ranked = AlternativesPreview(self.preview, self)
         self.certificates = CertificatePreview(self.session, self.preview, self)
+        self.prefetch = Prefetch(self.session, self.preview, self)
         self.window = Window(
             self.session,
             self.preview,
@@ -163,7 +163,7 @@ class Editor(QObject):
     def _key_runs(self):
         session, playback = self.session, self.playback
         runs = {
-            "key.add": lambda: editing.add_keyframe(session, self.plans),
+            "key.add": lambda: editing.add_keyframe(session, self.preview.motions),
             "key.copy": lambda: editing.copy_to_other_keyframe(session),
             "key.delete": lambda: editing.delete_current_keyframe(session),
             "span.clear": self._clear_anchors,
@@ -362,6 +362,7 @@ class Editor(QObject):
             self.export_dialog.close()
         self.incoming.stop()
         self.playback.stop()
+        self.prefetch.stop()
         self.preview.stop()
         self.ranked.stop()
         self.certificates.stop()

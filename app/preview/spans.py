@@ -3,8 +3,9 @@
 import threading
 import time
 from collections import OrderedDict
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -154,6 +155,7 @@ class SpanPreview(QObject):
         self._alike: OrderedDict[object, _Solved] = OrderedDict()
         self._plans: OrderedDict[object, _Planned] = OrderedDict()
         self._slow: dict[SpanRef, _PlanTask] = {}
+        self._ahead: OrderedDict[SpanRef, tuple[Keyframe, Keyframe]] = OrderedDict()
         self._planning: _PlanTask | None = None
         self._seconds: dict[object, float] = {}
         self._cancel = threading.Event()
@@ -204,6 +206,33 @@ class SpanPreview(QObject):
             return self._stand_in(before, after, layer, quick)
         _touch(self._plans, wanted.key)
         return found.plan
+
+    def prepare(self, spans: Iterable[tuple[int, Keyframe, Keyframe]]) -> None:
+        """Have spans that are not seen yet, (layer, before, after), solved while nothing else is asked for."""
+        self._ahead = OrderedDict(((layer, before.frame), (before, after)) for layer, before, after in spans)
+        self._pause.start()
+
+    def _solve_ahead(self) -> None:
+        """Give a worker the next span that lacks something."""
+        while self._ahead:
+            (layer, _), (before, after) = next(iter(self._ahead.items()))
+            missing = [
+                t for t in self._tasks(before, after, layer) if t.kept is None and t.key() not in self._exact
+            ]
+            if missing:
+                self._worker.submit(partial(_Ahead.solve, tuple(missing)))
+                return
+            wanted = self._wanted_plan(before, after, layer, before.span)
+            if not (wanted.key in self._plans or self._is_quick(wanted) or before.span.hold):
+                self._start_planning(wanted, _unseen)
+                return
+            self._ahead.popitem(last=False)
+
+    def _start_planning(self, wanted: _PlanTask, progress: Progress) -> None:
+        self._cancel.set()  # of what is solved now, the span has changed since
+        self._cancel = cancel = threading.Event()
+        self._planning = wanted
+        self._planner.submit(partial(_plan, wanted, progress, cancel.is_set))
 
     def waiting(self, before: Keyframe, layer: int) -> bool:
         """Whether what is shown of the span that begins here stands in for a plan that is being solved."""
@@ -342,10 +371,9 @@ class SpanPreview(QObject):
         if tasks:
             self._worker.submit(lambda: _solve(tasks))
         elif self._slow and self._planning not in self._slow.values():
-            self._cancel.set()  # of what is solved now, the span has changed since
-            self._cancel = cancel = threading.Event()
-            self._planning = wanted = next(reversed(self._slow.values()))
-            self._planner.submit(lambda: _plan(wanted, self.progressed.emit, cancel.is_set))
+            self._start_planning(next(reversed(self._slow.values())), self.progressed.emit)
+        elif not self._slow and self._planner.idle and self._worker.idle:
+            self._solve_ahead()
 
     def cancel_slow(self) -> None:
         """Stop solving; it begins again with the next plan that is asked for."""
@@ -356,14 +384,18 @@ class SpanPreview(QObject):
     def _on_solved(self, result: object) -> None:
         if isinstance(result, Exception):
             raise result
-        if isinstance(result, list):
+        if isinstance(result, _Ahead):
+            for solved in result.solved:
+                self._keep_exact(solved)
+            self._pause.start()
+        elif isinstance(result, list):
             for solved in result:
                 self._keep_exact(solved)
                 waiting = self._wanted.get(solved.task.likeness())
                 if waiting is not None and waiting.key() == solved.task.key():
                     del self._wanted[solved.task.likeness()]
             self.planned.emit()
-            if self._slow:
+            if self._slow or self._ahead:
                 self._pause.start()
 
     def _on_planned(self, result: object) -> None:
@@ -378,9 +410,27 @@ class SpanPreview(QObject):
             waiting = self._slow.get(result.task.ref)
             if waiting is not None and waiting.key == result.task.key:
                 del self._slow[result.task.ref]
-            self.planned.emit()
-            if self._slow:
+            if result.task.ref in self._ahead and waiting is None:
+                del self._ahead[result.task.ref]  # nobody has seen the span yet
+            else:
+                self.planned.emit()
+            if self._slow or self._ahead:
                 self._pause.start()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Ahead:
+    """Answers for a span that nobody has seen yet."""
+
+    solved: list[_Solved]
+
+    @classmethod
+    def solve(cls, tasks: tuple[_Task, ...]) -> "_Ahead":
+        return cls(_solve(tasks))
+
+
+def _unseen(_: float) -> None:
+    """The progress of what is solved ahead is shown nowhere."""
 
 
 def _plan(task: "_PlanTask", progress: Progress, cancelled: Callable[[], bool]) -> "_Planned | None":

@@ -205,7 +205,7 @@ def test_the_ways_of_pins_and_of_vertices_are_painted(limbs) -> None:
 
 def test_the_ways_of_vertices_are_few_and_go_from_keyframe_to_keyframe(limbs) -> None:
     content = limbs.canvas.content
-    ways = vertex_ways(content.plan, frame_times(content.before, content.after))
+    ways = vertex_ways(content.motion, range(content.before.frame, content.after.frame + 1))
     assert ways.shape[0] == 25
     assert 20 < ways.shape[1] <= 40
     left = content.plan.links[0].aligned.left
