@@ -1,6 +1,7 @@
 """The one place that builds everything and connects it."""
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QSize, Qt
@@ -8,7 +9,7 @@ from PySide6.QtGui import QCloseEvent, QGuiApplication, QIcon
 from PySide6.QtWidgets import QApplication
 
 import resources
-from app import editing, matching
+from app import copying, editing, matching
 from app.canvas.reference import current_reference
 from app.dialogs.export import ExportDialog
 from app.dialogs.help import show_about, show_keys
@@ -114,7 +115,9 @@ class Editor(QObject):
             "file.stage": self.edit_stage,
             "file.import": self.incoming.import_svg,
             "file.import_layers": lambda: self.incoming.import_svg(as_layers=True),
-            "file.export": self.export_frames,
+            "file.import_folder": self.incoming.import_folder,
+            "file.import_lottie": self.incoming.import_lottie,
+            "file.export": self.export,
             "file.close": files.new,
             "file.quit": self.window.close,
             "help.keys": lambda: show_keys(window, window.tools.values()),
@@ -128,11 +131,17 @@ class Editor(QObject):
             "edit.redo": session.undo_stack.redo,
             "edit.cut": lambda: editing.cut(session, clipboard),
             "edit.copy": lambda: editing.copy(session, clipboard),
+            "edit.copy_picture": lambda: self._tell_copied(copying.copy_picture, "picture"),
+            "edit.copy_svg": lambda: self._tell_copied(copying.copy_svg, "SVG"),
             "edit.paste": lambda: editing.paste(session, clipboard),
             "edit.delete": lambda: editing.delete(session),
             "edit.select_all": lambda: editing.select_all(session),
             "edit.select_none": lambda: session.select(Selection()),
         }
+
+    def _tell_copied(self, copy: Callable[[Session, PlanCache], bool], what: str) -> None:
+        if copy(self.session, self.plans):
+            self.window.tell(f"Frame {self.session.frame} is on the clipboard as {what}.", "info")
 
     def _insert_runs(self):
         return {
@@ -310,14 +319,14 @@ class Editor(QObject):
         if dialog.exec():
             self.session.apply("Change Stage", set_stage, dialog.stage)
 
-    def export_frames(self) -> None:
+    def export(self) -> None:
         """Open the export dialog, or bring the one at work to the front."""
-        if self.export_dialog is not None and self.export_dialog.job is not None:
-            self.export_dialog.raise_()
+        if self.export_dialog is not None:
+            self.export_dialog.activateWindow()
             return
         folder = self.session.path.parent if self.session.path else Path.home()
         name = self.session.name
-        dialog = ExportDialog(self.session.document, name, folder / f"{name} frames", self.window)
+        dialog = ExportDialog(lambda: self.session.document, name, folder, self.settings, self.window)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.told.connect(self.window.tell)
         dialog.destroyed.connect(self._forget_dialog)

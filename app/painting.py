@@ -7,7 +7,7 @@ tell. So vertices are mapped to device px by numpy first, and thinned there.
 import math
 from collections import OrderedDict
 from collections.abc import Callable, Iterable, Sequence
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -19,8 +19,10 @@ from core.errors import StorageError
 from core.geometry.outline import FloatArray
 from core.model.document import Document, Stage
 from core.model.drawing import Color
-from core.model.inbetweens import Picture
-from core.model.motion import HasMotions, pictures_at
+
+if TYPE_CHECKING:  # solving brings scipy with it; a process that only paints need not wait for that
+    from core.model.inbetweens import Picture
+    from core.model.motion import HasMotions
 
 Outlines = Sequence[tuple[FloatArray, bool]]
 Background = Literal["stage"] | Color | None
@@ -243,7 +245,7 @@ def _enter_device(painter: QPainter) -> QTransform:
     return surface
 
 
-def paint_picture(painter: QPainter, picture: Picture, transform: QTransform) -> None:
+def paint_picture(painter: QPainter, picture: "Picture", transform: QTransform) -> None:
     """Paint what one layer shows in its own style; the stroke grows with `transform`.
 
     Where fill and stroke would show through each other they are painted in full on a picture of their own first.
@@ -259,14 +261,14 @@ def paint_picture(painter: QPainter, picture: Picture, transform: QTransform) ->
     painter.restore()
 
 
-def _overlaps_itself(picture: Picture) -> bool:
+def _overlaps_itself(picture: "Picture") -> bool:
     """Whether parts of a picture are painted on top of others."""
     style, lines = picture.style, sum(not closed for _, closed in picture.outlines)
     both = style.fill is not None and style.stroke is not None and style.width > 0
     return (both and lines < len(picture.outlines)) or (lines > 0 and len(picture.outlines) > 1)
 
 
-def _paint_shapes(painter: QPainter, picture: Picture, transform: QTransform) -> None:
+def _paint_shapes(painter: QPainter, picture: "Picture", transform: QTransform) -> None:
     """Paint closed outlines with fill and stroke, and open ones as strokes: they have no inside."""
     style = picture.style
     width = style.width * _scale(transform) * painter.device().devicePixelRatio()
@@ -280,7 +282,7 @@ def _paint_shapes(painter: QPainter, picture: Picture, transform: QTransform) ->
         paint_outlines(painter, lines, fill=None, stroke=stroke or fill, width=width, transform=transform)
 
 
-def _paint_through(painter: QPainter, picture: Picture, transform: QTransform) -> None:
+def _paint_through(painter: QPainter, picture: "Picture", transform: QTransform) -> None:
     """Paint a picture in full on a sheet of its own, no larger than needed, and that one thinly."""
     device = painter.device()
     room = painter.clipBoundingRect() if painter.hasClipping() else QRectF(painter.viewport())
@@ -303,7 +305,7 @@ def _paint_through(painter: QPainter, picture: Picture, transform: QTransform) -
     painter.restore()
 
 
-def _covered(picture: Picture, transform: QTransform) -> QRectF:
+def _covered(picture: "Picture", transform: QTransform) -> QRectF:
     """Return a rectangle around everything that is painted of a picture."""
     points = _mapped(np.concatenate([p for p, _ in picture.outlines]), transform)
     (left, top), (right, bottom) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
@@ -315,7 +317,7 @@ def _scale(transform: QTransform) -> float:
     return math.sqrt(abs(transform.determinant()))
 
 
-def paint_frame(painter: QPainter, pictures: Iterable[Picture], transform: QTransform) -> None:
+def paint_frame(painter: QPainter, pictures: "Iterable[Picture]", transform: QTransform) -> None:
     """Paint the layers of a frame, from the back to the front."""
     for picture in pictures:
         paint_picture(painter, picture, transform)
@@ -333,12 +335,27 @@ def render_frame(
     document: Document,
     frame: float,
     size: QSize,
-    plans: HasMotions,
+    plans: "HasMotions",
     *,
     background: Background = "stage",
     format: QImage.Format = QImage.Format.Format_ARGB32_Premultiplied,
 ) -> QImage:
-    """Return the picture of a frame.
+    """Return the picture of a frame; see `render_pictures`."""
+    from core.model.motion import pictures_at
+
+    color = document.stage.background if background == "stage" else background
+    return render_pictures(pictures_at(document, frame, plans), document.stage, size, color, format=format)
+
+
+def render_pictures(
+    pictures: "Iterable[Picture]",
+    stage: Stage,
+    size: QSize,
+    background: Color | None,
+    *,
+    format: QImage.Format = QImage.Format.Format_ARGB32_Premultiplied,
+) -> QImage:
+    """Return the picture of what the layers show.
 
     Drawings are cut off at the edges of the stage; where `size` has another shape, the margins get
     the background. `format` is any that QPainter paints on.
@@ -351,13 +368,12 @@ def render_frame(
     image = QImage(size, format)
     if image.isNull():
         raise StorageError(f"no memory for a picture of {size.width()} x {size.height()} px; choose a smaller one")
-    color = document.stage.background if background == "stage" else background
-    image.fill(to_qcolor(color) if color else Qt.GlobalColor.transparent)
-    transform = stage_transform(document.stage, size)
+    image.fill(to_qcolor(background) if background else Qt.GlobalColor.transparent)
+    transform = stage_transform(stage, size)
     painter = QPainter(image)
     try:
-        painter.setClipRect(transform.mapRect(QRectF(0, 0, document.stage.width, document.stage.height)))
-        paint_frame(painter, pictures_at(document, frame, plans), transform)
+        painter.setClipRect(transform.mapRect(QRectF(0, 0, stage.width, stage.height)))
+        paint_frame(painter, pictures, transform)
     finally:
         painter.end()  # an image that dies under an active painter takes the program with it
     return image
