@@ -51,6 +51,9 @@ ACTIONS: tuple[ActionSpec, ...] = (
     _line("File"),
     ActionSpec("file.save", "File", "Save", ("Ctrl+S",), "save"),
     ActionSpec("file.save_as", "File", "Save As…", ("Ctrl+Shift+S",)),
+    ActionSpec("file.revert", "File", "Revert to Saved", tip="Take what is in the file; undo takes it back"),
+    ActionSpec("file.backup", "File", "Restore Backup", tip="Take the version before the last save"),
+    ActionSpec("file.recover", "File", "Recover Unsaved Work…", tip="What was not saved when Inkbetween ended"),
     _line("File"),
     ActionSpec("file.stage", "File", "Stage…", (), "settings", tip="Size and colour of the paper"),
     ActionSpec(
@@ -140,7 +143,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Stretch Heat Map",
         ("Shift+H",),
         checkable=True,
-        tip="Colour the in-between where it is longer or shorter than its keyframes",
+        tip="Colour the in-between where it is longer or shorter than its keyframes, inside and outline",
     ),
     ActionSpec(
         "view.paths",
@@ -203,6 +206,14 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("span.intrinsic", "Span", "Intrinsic", (), "", checkable=True, group="method"),
     ActionSpec("span.rigid", "Span", "Rigid", (), "", checkable=True, group="method"),
     ActionSpec("span.auto", "Span", "Auto", (), "", checkable=True, group="method"),
+    ActionSpec(
+        "span.other_way",
+        "Span",
+        "Turn the Other Way Round",
+        (),
+        "",
+        tip="Go round the other side, left in place of right; again: back. Not for linear",
+    ),
     _line("Span"),
     ActionSpec("span.clear", "Span", "Clear Anchors"),
     ActionSpec("span.clear_pins", "Span", "Clear Pins"),

@@ -283,24 +283,34 @@ def _paint_shapes(painter: QPainter, picture: "Picture", transform: QTransform) 
 
 
 def _paint_through(painter: QPainter, picture: "Picture", transform: QTransform) -> None:
-    """Paint a picture in full on a layer of its own, and that one thinly."""
-    clip = painter.clipBoundingRect() if painter.hasClipping() else QRectF(painter.viewport())
-    ratio = painter.device().devicePixelRatio()
-    area = clip.toAlignedRect()
+    """Paint a picture in full on a sheet of its own, no larger than needed, and that one thinly."""
+    device = painter.device()
+    room = painter.clipBoundingRect() if painter.hasClipping() else QRectF(painter.viewport())
+    area = _covered(picture, transform).intersected(room).toAlignedRect()
     if area.isEmpty():
         return
-    layer = QImage(area.size() * ratio, QImage.Format.Format_ARGB32_Premultiplied)
-    layer.setDevicePixelRatio(ratio)
-    layer.fill(Qt.GlobalColor.transparent)
-    inner = QPainter(layer)
+    fine = isinstance(device, QImage) and device.format() == QImage.Format.Format_RGBA64_Premultiplied
+    kind = QImage.Format.Format_RGBA64_Premultiplied if fine else QImage.Format.Format_ARGB32_Premultiplied
+    sheet = QImage(area.size() * device.devicePixelRatio(), kind)
+    sheet.setDevicePixelRatio(device.devicePixelRatio())
+    sheet.fill(Qt.GlobalColor.transparent)
+    inner = QPainter(sheet)
     try:
         _paint_shapes(inner, picture, transform * QTransform.fromTranslate(-area.x(), -area.y()))
     finally:
         inner.end()
     painter.save()
     painter.setOpacity(painter.opacity() * picture.opacity)
-    painter.drawImage(area.topLeft(), layer)
+    painter.drawImage(area.topLeft(), sheet)
     painter.restore()
+
+
+def _covered(picture: "Picture", transform: QTransform) -> QRectF:
+    """Return a rectangle around everything that is painted of a picture."""
+    points = _mapped(np.concatenate([p for p, _ in picture.outlines]), transform)
+    (left, top), (right, bottom) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+    reach = picture.style.width * _scale(transform) / 2 + 2
+    return QRectF(left, top, right - left, bottom - top).adjusted(-reach, -reach, reach, reach)
 
 
 def _scale(transform: QTransform) -> float:

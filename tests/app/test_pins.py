@@ -5,7 +5,6 @@ import pytest
 from PySide6.QtCore import Qt
 
 from app.canvas.paths import vertex_ways
-from app.canvas.pins import frame_times
 from app.session import PinRef
 from core import load
 from core.model.document import Document
