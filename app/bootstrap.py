@@ -6,7 +6,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QSize, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QIcon
-from PySide6.QtWidgets import QApplication, QMenu
+from PySide6.QtWidgets import QApplication
 
 import resources
 from app import editing, matching
@@ -16,8 +16,10 @@ from app.dialogs.help import show_about, show_keys
 from app.dialogs.stage import StageDialog
 from app.editing import Clipboard
 from app.files import Files
+from app.film import film_runs, on_track, show_film_state
 from app.incoming import Incoming
-from app.playback import Playback
+from app.keys import Keys
+from app.playback import Flip, Playback
 from app.preview.alternatives import AlternativesPreview
 from app.preview.certificates import CertificatePreview
 from app.preview.spans import SpanPreview
@@ -58,6 +60,8 @@ class Editor(QObject):
         self.preview = SpanPreview(self)
         self.view_state = ViewState(self.settings, self)
         self.playback = Playback(self.session, self)
+        self.flip = Flip(self.session, self.playback, self)
+        self.keys = Keys(self.session, self)
         self.clipboard = Clipboard()
         self.plans = PlanCache()
         theme = system_theme(self.settings.text("theme", "system"))
@@ -68,6 +72,7 @@ class Editor(QObject):
             self.preview,
             self.ranked,
             self.certificates,
+            self.keys,
             self.view_state,
             self.playback,
             self.settings,
@@ -87,14 +92,17 @@ class Editor(QObject):
     # actions
 
     def _runs(self):
-        return (
+        track = self.window.timeline.track
+        runs = (
             self._file_runs()
             | self._edit_runs()
             | self._insert_runs()
             | self._view_runs()
             | {name: lambda n=name: self.window.choose_tool(n) for name in self.window.tools}
             | self._key_runs()
+            | film_runs(self.session, self.keys, track, self.playback, self.flip)
         )
+        return on_track(runs, track, self.keys)
 
     def _file_runs(self):
         files, window = self.files, self.window
@@ -206,14 +214,20 @@ class Editor(QObject):
         session.documentChanged.connect(self._on_document_changed)
         for signal_ in (session.frameChanged, session.layerChanged):
             signal_.connect(self._refresh)
-        for signal_ in (session.selectionChanged, session.gestureChanged, self.view_state.changed):
+        for signal_ in (
+            session.selectionChanged,
+            session.gestureChanged,
+            session.problem,
+            self.view_state.changed,
+        ):
             signal_.connect(self._refresh)
         session.fileChanged.connect(window.show_title)
         session.fileChanged.connect(self._on_file_changed)
         session.undo_stack.indexChanged.connect(self._refresh)
+        for signal_ in (session.problem, session.soloChanged, session.rangeChanged, self.keys.changed):
+            signal_.connect(self._refresh)
         self.playback.changed.connect(self._refresh)
         window.canvas.playPressed.connect(self.playback.toggle)
-        window.timeline.track.menuWanted.connect(self._show_key_menu)
         window.closeAsked.connect(self._on_close_asked)
         window.fileDropped.connect(lambda name: self.incoming.take(Path(name), self.files.open_path))
         window.canvas.references.unreadable.connect(session.problem, Qt.ConnectionType.QueuedConnection)
@@ -250,6 +264,7 @@ class Editor(QObject):
         table["view.final"].setChecked(options.final)
         table[ARRANGEMENT_ACTIONS[options.arrangement]].setChecked(True)
         self._show_playing()
+        show_film_state(table, session, self.keys, self.playback)
 
     def _show_playing(self) -> None:
         table, playing = self.window.table, self.playback.playing
@@ -298,16 +313,6 @@ class Editor(QObject):
         if recent:
             menu.addSeparator()
             menu.addAction("Forget These").triggered.connect(self.settings.clear_recent)
-
-    def _show_key_menu(self, frame: int, place: object) -> None:
-        menu = QMenu(self.window)
-        for name in ("key.add", "key.copy", "key.delete"):
-            menu.addAction(self.window.table[name])
-        menu.addSeparator()
-        for name in ("edit.copy", "edit.paste"):
-            menu.addAction(self.window.table[name])
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        menu.popup(place)
 
     # dialogs
 
