@@ -14,7 +14,7 @@ from core.io.project import load, save
 from core.model.document import Document, Keyframe, Layer
 from core.model.references import with_absolute_references, with_relative_references
 
-UNDO_LIMIT = 200
+UNDO_LIMIT = 1000
 
 OutlineRef = tuple[int, int]
 """The frame of a keyframe in the active layer, and the id of an outline in its drawing."""
