@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Iterable
 
+from PySide6.QtCore import QObject, Signal
+
 from app.actions import ActionTable
 from app.keys import Keys
 from app.panels.track import Track
@@ -14,67 +16,95 @@ from core.model.frame_edits import insert_frames, remove_frames
 Runs = dict[str, Callable[[], object]]
 
 
-def film_runs(session: Session, keys: Keys, track: Track, playback: Playback, flip: Flip) -> Runs:
-    """Return what the actions of keyframes, frames, layers and the range run, by their ids."""
-    return {
-        "key.duplicate": keys.duplicate,
-        "key.delete_chosen": keys.delete,
-        "key.hold": lambda: keys.set_hold(not _all(k.span.hold for k in keys.keyframes())),
-        "key.smooth": lambda: keys.set_smooth(not _all(k.smooth for k in keys.keyframes())),
-        "frame.insert": lambda: insert_frame(session, everywhere=False),
-        "frame.remove": lambda: remove_frame(session, everywhere=False),
-        "frame.insert_all": lambda: insert_frame(session, everywhere=True),
-        "frame.remove_all": lambda: remove_frame(session, everywhere=True),
-        "layer.add": lambda: add_new_layer(session),
-        "layer.rename": lambda: track.rename(session.layer.id),
-        "layer.duplicate": lambda: duplicate_current_layer(session),
-        "layer.delete": lambda: session.apply("Delete Layer", delete_layer, session.layer.id),
-        "layer.show": lambda: switch(session, "visible"),
-        "layer.lock": lambda: switch(session, "locked"),
-        "layer.solo": lambda: session.set_solo(session.solo ^ {session.layer.id}),
-        "play.ping_pong": lambda: playback.set_ping_pong(not playback.ping_pong),
-        "play.range_from": lambda: session.set_range((session.frame, max(session.frame, session.range[1]))),
-        "play.range_to": lambda: session.set_range((min(session.frame, session.range[0]), session.frame)),
-        "play.no_range": lambda: session.set_range(None),
-        "flip.previous": lambda: flip.show(-1),
-        "flip.next": lambda: flip.show(1),
-        "view.fit_film": track.fit,
-    }
+class Film(QObject):
+    """The selected keyframes, flipping, what the actions run; `changed` tells that menus show something else."""
 
+    changed = Signal()
 
-def on_track(runs: Runs, track: Track, keys: Keys) -> Runs:
-    """Return `runs` in which, while the timeline has the keyboard, cut, copy and the like are of keyframes."""
-    of_keys: Runs = {
-        "edit.cut": keys.cut,
-        "edit.copy": keys.copy,
-        "edit.paste": keys.paste,
-        "edit.delete": keys.delete,
-        "edit.select_all": keys.choose_all,
-        "edit.select_none": lambda: keys.choose(()),
-        "key.copy": keys.duplicate,
-    }
+    def __init__(self, session: Session, playback: Playback, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.session, self.playback = session, playback
+        self.keys = Keys(session, self)
+        self.flip = Flip(session, playback, self)
+        for signal in (session.problem, session.soloChanged, session.rangeChanged, self.keys.changed):
+            signal.connect(self._on_changed)
 
-    def by_focus(of_key: Callable[[], object], other: Callable[[], object]) -> Callable[[], object]:
-        return lambda: of_key() if track.hasFocus() else other()
+    def _on_changed(self, *_: object) -> None:
+        self.changed.emit()
 
-    return runs | {name: by_focus(run, runs[name]) for name, run in of_keys.items()}
+    def runs(self, others: Runs, track: Track) -> Runs:
+        """Return what every action runs: `others`, and those of the timeline.
 
+        While the timeline has the keyboard, cut, copy and the like are of keyframes.
+        """
+        of_keys: Runs = {
+            "edit.cut": self.keys.cut,
+            "edit.copy": self.keys.copy,
+            "edit.paste": self.keys.paste,
+            "edit.delete": self.keys.delete,
+            "edit.select_all": self.keys.choose_all,
+            "edit.select_none": lambda: self.keys.choose(()),
+            "key.copy": self.keys.duplicate,
+        }
 
-def show_film_state(table: ActionTable, session: Session, keys: Keys, playback: Playback) -> None:
-    """Show in menus and buttons how the keyframes, the layer and the playback are."""
-    layer, keyframes = session.layer, keys.keyframes()
-    for name, on in (
-        ("key.hold", _all(k.span.hold for k in keyframes)),
-        ("key.smooth", _all(k.smooth for k in keyframes)),
-        ("layer.show", layer.visible),
-        ("layer.lock", layer.locked),
-        ("layer.solo", layer.id in session.solo),
-        ("play.ping_pong", playback.ping_pong),
-    ):
-        table[name].setChecked(on)
-    for name in ("key.hold", "key.smooth", "key.duplicate", "key.delete_chosen"):
-        table[name].setEnabled(bool(keyframes))
-    table["play.no_range"].setEnabled(session.has_range)
+        def by_focus(of_key: Callable[[], object], other: Callable[[], object]) -> Callable[[], object]:
+            return lambda: of_key() if track.hasFocus() else other()
+
+        focused = {name: by_focus(run, others[name]) for name, run in of_keys.items()}
+        return others | focused | self._key_runs() | self._layer_runs(track) | self._play_runs(track)
+
+    def _key_runs(self) -> Runs:
+        session, keys = self.session, self.keys
+        return {
+            "key.duplicate": keys.duplicate,
+            "key.delete_chosen": keys.delete,
+            "key.hold": lambda: keys.set_hold(not _all(k.span.hold for k in keys.keyframes())),
+            "key.smooth": lambda: keys.set_smooth(not _all(k.smooth for k in keys.keyframes())),
+            "frame.insert": lambda: insert_frame(session, everywhere=False),
+            "frame.remove": lambda: remove_frame(session, everywhere=False),
+            "frame.insert_all": lambda: insert_frame(session, everywhere=True),
+            "frame.remove_all": lambda: remove_frame(session, everywhere=True),
+        }
+
+    def _layer_runs(self, track: Track) -> Runs:
+        session = self.session
+        return {
+            "layer.add": lambda: add_new_layer(session),
+            "layer.rename": lambda: track.rename(session.layer.id),
+            "layer.duplicate": lambda: duplicate_current_layer(session),
+            "layer.delete": lambda: session.apply("Delete Layer", delete_layer, session.layer.id),
+            "layer.show": lambda: switch(session, "visible"),
+            "layer.lock": lambda: switch(session, "locked"),
+            "layer.solo": lambda: session.set_solo(session.solo ^ {session.layer.id}),
+        }
+
+    def _play_runs(self, track: Track) -> Runs:
+        session, playback = self.session, self.playback
+        return {
+            "play.ping_pong": lambda: playback.set_ping_pong(not playback.ping_pong),
+            "play.range_from": lambda: session.set_range((session.frame, max(session.frame, session.range[1]))),
+            "play.range_to": lambda: session.set_range((min(session.frame, session.range[0]), session.frame)),
+            "play.no_range": lambda: session.set_range(None),
+            "flip.previous": lambda: self.flip.show(-1),
+            "flip.next": lambda: self.flip.show(1),
+            "view.fit_film": track.fit,
+        }
+
+    def show_in(self, table: ActionTable) -> None:
+        """Show in menus and buttons how the keyframes, the layer and the playback are."""
+        session, layer, keyframes = self.session, self.session.layer, self.keys.keyframes()
+        for name, on in (
+            ("key.hold", _all(k.span.hold for k in keyframes)),
+            ("key.smooth", _all(k.smooth for k in keyframes)),
+            ("layer.show", layer.visible),
+            ("layer.lock", layer.locked),
+            ("layer.solo", layer.id in session.solo),
+            ("play.ping_pong", self.playback.ping_pong),
+        ):
+            table[name].setChecked(on)
+        for name in ("key.hold", "key.smooth", "key.duplicate", "key.delete_chosen"):
+            table[name].setEnabled(bool(keyframes))
+        table["play.no_range"].setEnabled(session.has_range)
 
 
 def _all(flags: Iterable[bool]) -> bool:

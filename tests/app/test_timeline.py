@@ -36,7 +36,7 @@ class TrackHand:
         self.hand, self.session = hand, hand.session
         self.opened = []
         self.track = hand.editor.window.timeline.track
-        self.keys = hand.editor.keys
+        self.keys = hand.editor.film.keys
 
     def key(self, layer_id, frame):
         return self.track.key_place(self.session.document.layer(layer_id), frame).toPoint()
@@ -510,4 +510,4 @@ def test_a_held_key_flips_to_the_neighbouring_drawings_and_its_release_back(time
     QTest.keyPress(widget, Key.Key_A)
     assert timeline.session.frame == 24
     QTest.keyRelease(widget, Key.Key_A)
-    assert (timeline.session.frame, timeline.hand.editor.flip.flipping) == (30, False)
+    assert (timeline.session.frame, timeline.hand.editor.film.flip.flipping) == (30, False)
