@@ -32,6 +32,7 @@ from app.theme import icon, palette, system_theme
 from app.view import LINES, ViewState
 from app.window import Window
 from core.model.edits import clear_anchors, clear_pins, set_stage, solve_again
+from core.model.motion import HasMotions
 
 ARRANGEMENT_ACTIONS = {"overlaid": "view.overlaid", "side by side": "view.side", "compare": "view.compare"}
 THEME_ACTIONS = {"system": "view.theme_system", "light": "view.theme_light", "dark": "view.theme_dark"}
@@ -143,8 +144,8 @@ class Editor(QObject):
             "edit.select_none": lambda: session.select(Selection()),
         }
 
-    def _tell_copied(self, copy: Callable[[Session, PlanCache], bool], what: str) -> None:
-        if copy(self.session, self.plans):
+    def _tell_copied(self, copy: Callable[[Session, HasMotions], bool], what: str) -> None:
+        if copy(self.session, self.preview):
             self.window.tell(f"Frame {self.session.frame} is on the clipboard as {what}.", "info")
 
     def _insert_runs(self):
