@@ -65,6 +65,16 @@ class SpanCertificate:
         problem = self.worst.get(frame)
         return problem.severity if problem else ""
 
+    def worst_near(self, frame: int) -> int:
+        """Return the worst frame of the run that a frame with a problem lies in, or else the frame itself."""
+        for first, last, severity in self.runs:
+            if severity in SEVERITIES[:2] and first <= frame <= last:
+                within = {f: self.worst[f] for f in range(first, last + 1) if f in self.worst}
+                kind = within[frame].kind if frame in within else ""
+                alike = [f for f, p in within.items() if p.kind == kind]
+                return max(alike, key=lambda f: _badness(within[f]), default=frame)
+        return frame
+
 
 def certify_span(motion: SpanMotion) -> SpanCertificate:
     """Return the certificate of all in-betweens of a span, each as it is shown at its frame."""
