@@ -23,6 +23,9 @@ DIAMOND = 7.0
 BAR = 5.0
 """Half the height of a span's bar."""
 
+STILL_PX = 2
+"""A press that moves no farther is a click."""
+
 SEVERITY_COLORS = {"": "good", "info": "good", "warning": "warning", "error": "error"}
 SELDOM = (1, 2, 5, 6, 12, 24, 48, 120, 240, 600, 1200, 6000, 12000, 60000)
 
@@ -32,8 +35,13 @@ def _shown(document: Document) -> list[tuple[object, ...]]:
 
 
 class Track(QWidget):
-    """Drag to scrub; drag a diamond to move its keyframe; click a row's name to draw on that layer."""
+    """Drag to scrub; drag a diamond to move its keyframe; click a row's name to draw on that layer.
 
+    A click on a bar where it is amber or red goes to the worst of these frames; `problemChosen` tells the place and
+    the colour of the problem.
+    """
+
+    problemChosen = Signal(object, str)
     menuWanted = Signal(int, object)  # frame, place on the screen
 
     def __init__(
@@ -149,14 +157,25 @@ class Track(QWidget):
 
     def _problem_under(self, at: QPointF) -> str:
         """Return the sentence of the worst problem of the frame under the pointer, "" where there is none."""
-        row = self._row_at(at.y())
-        if row is None or abs(self.row_rect(row).center().y() - at.y()) > BAR + 4:
-            return ""
-        frame = self.frame_at(at.x())
-        before, after = self._rows()[row].around(frame)
-        certificate = self.certificates.of(before, after) if before and after else None
+        certificate, frame = self._certificate_under(at)
         problem = certificate.worst.get(frame) if certificate else None
         return f"Frame {frame}: {finding(problem)}" if problem else ""
+
+    def _certificate_under(self, at: QPointF) -> tuple[SpanCertificate | None, int]:
+        """Return the certificate of the bar under the pointer, None beside every bar; and the frame there."""
+        row, frame = self._row_at(at.y()), self.frame_at(at.x())
+        if row is None or abs(self.row_rect(row).center().y() - at.y()) > BAR + 4:
+            return None, frame
+        before, after = self._rows()[row].around(frame)
+        return (self.certificates.of(before, after) if before and after else None), frame
+
+    def _go_to_worst(self, at: QPointF) -> None:
+        """Go where the problem of the frames as bad as the one clicked is worst, and tell its place."""
+        certificate, frame = self._certificate_under(at)
+        problem = certificate.worst_near(frame) if certificate else None
+        if certificate is not None and problem is not None:
+            self.session.go_to(certificate.frame_of(problem))
+            self.problemChosen.emit(problem.place, SEVERITY_COLORS[problem.severity])
 
     def _drag_key(self, to: int) -> None:
         if self._gesture is None:
@@ -169,6 +188,8 @@ class Track(QWidget):
             self.session.go_to(to)
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        if self._scrubbing and abs(event.position().x() - self._press_x) <= STILL_PX:
+            self._go_to_worst(event.position())
         self._end_drag(keep=True)
 
     def _end_drag(self, *, keep: bool) -> None:

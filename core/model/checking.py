@@ -65,6 +65,21 @@ class SpanCertificate:
         problem = self.worst.get(frame)
         return problem.severity if problem else ""
 
+    def worst_near(self, frame: int) -> Problem | None:
+        """Return the worst problem of the kind that a frame has, in the run of frames as bad; None if clean."""
+        here = self.worst.get(frame)
+        if here is None:
+            return None
+        first, last, _ = next(run for run in self.runs if run[0] <= frame <= run[1])
+        alike = [
+            p
+            for p in self.certificate.problems
+            if (p.kind, p.severity) == (here.kind, here.severity)
+            and p.frame is not None
+            and first <= self.frames[p.frame] <= last
+        ]
+        return max(alike, key=_badness)
+
 
 def certify_span(motion: SpanMotion) -> SpanCertificate:
     """Return the certificate of all in-betweens of a span, each as it is shown at its frame."""

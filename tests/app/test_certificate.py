@@ -136,6 +136,32 @@ def test_hovering_a_coloured_frame_names_its_problem_and_a_click_goes_there(cros
     assert track.toolTip() == ""
 
 
+def test_a_click_on_amber_or_red_goes_to_the_worst_of_these_frames_and_rings_its_place(hand, qtbot):
+    hand.session.new(swing(1.9))
+    hand.certify(qtbot)
+    found = hand.editor.certificates.of(*hand.session.layer.keyframes)
+    first, last, _ = next(run for run in found.runs if run[2] == "warning" and run[0] < run[1])
+    track, at = spot(hand, first)
+    QTest.mouseClick(track, LEFT, NONE, at)
+    assert hand.session.frame == found.frame_of(found.worst_near(first))
+    assert first <= hand.session.frame <= last
+    assert hand.canvas.marked == (found.worst_near(first).place, "warning")
+    track, at = spot(hand, 5)
+    QTest.mousePress(track, LEFT, NONE, at)
+    move_pointer(track, at + QPoint(30, 0), NONE, LEFT)
+    QTest.mouseRelease(track, LEFT, NONE, at + QPoint(30, 0))
+    assert hand.session.frame == track.frame_at(at.x() + 30)  # a drag only scrubs
+
+
+def test_where_a_bar_is_green_a_click_goes_to_the_frame_itself(hand, qtbot):
+    hand.session.new(swing(0.3))
+    hand.certify(qtbot)
+    track, at = spot(hand, 9)
+    QTest.mouseClick(track, LEFT, NONE, at)
+    assert hand.session.frame == 9
+    assert hand.canvas.marked is None
+
+
 # the panel
 
 
