@@ -37,8 +37,8 @@ def _shown(document: Document) -> list[tuple[object, ...]]:
 class Track(QWidget):
     """Drag to scrub; drag a diamond to move its keyframe; click a row's name to draw on that layer.
 
-    A click on a bar where it is amber or red goes to the worst of these frames; `problemChosen` tells the place and
-    the colour of the problem.
+    A click on a bar where it is amber or red goes to the worst of these frames; `problemChosen` tells the place
+    and the colour of the problem.
     """
 
     problemChosen = Signal(object, str)
