@@ -157,6 +157,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ),
     _line("View"),
     ActionSpec("view.fit", "View", "Fit Stage", ("F",), "fit"),
+    ActionSpec("view.fit_film", "View", "Fit Film in Timeline", ("Shift+F",)),
     ActionSpec("view.zoom_in", "View", "Zoom In", ("Ctrl++", "Ctrl+=")),
     ActionSpec("view.zoom_out", "View", "Zoom Out", ("Ctrl+-",)),
     ActionSpec("view.actual", "View", "Actual Size", ("Ctrl+0",)),
@@ -188,6 +189,45 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec(
         "key.delete", "Draw", "Delete Keyframe", ("Shift+F6",), tip="Take away the keyframe at the playhead"
     ),
+    _line("Draw"),
+    ActionSpec(
+        "key.duplicate",
+        "Draw",
+        "Duplicate Keyframes",
+        tip="Put copies behind the selected keyframes",
+    ),
+    ActionSpec("key.delete_chosen", "Draw", "Delete Selected Keyframes"),
+    ActionSpec(
+        "key.hold",
+        "Draw",
+        "Hold Until Next Keyframe",
+        checkable=True,
+        tip="No in-betweens: the drawing stays until the next keyframe",
+    ),
+    ActionSpec(
+        "key.smooth",
+        "Draw",
+        "Smooth Through Keyframe",
+        checkable=True,
+        tip="The motion goes through the keyframe without a jump in its velocity",
+    ),
+    _line("Draw"),
+    ActionSpec(
+        "frame.insert", "Draw", "Insert Frame", ("F5",), tip="In this layer: what is shown is held a frame longer"
+    ),
+    ActionSpec(
+        "frame.remove", "Draw", "Remove Frame", ("Shift+F5",), tip="In this layer: what is behind comes earlier"
+    ),
+    ActionSpec("frame.insert_all", "Draw", "Insert Frame in All Layers", ("Ctrl+F5",)),
+    ActionSpec("frame.remove_all", "Draw", "Remove Frame from All Layers", ("Ctrl+Shift+F5",)),
+    ActionSpec("layer.add", "Layer", "Add Layer", ("Ctrl+Shift+N",), "add", tip="Add a layer in front"),
+    ActionSpec("layer.rename", "Layer", "Rename Layer"),
+    ActionSpec("layer.duplicate", "Layer", "Duplicate Layer"),
+    ActionSpec("layer.delete", "Layer", "Delete Layer"),
+    _line("Layer"),
+    ActionSpec("layer.show", "Layer", "Show Layer", checkable=True),
+    ActionSpec("layer.lock", "Layer", "Lock Layer", checkable=True, tip="The layer is seen, but not changed"),
+    ActionSpec("layer.solo", "Layer", "Solo Layer", checkable=True, tip="Show this layer alone"),
     ActionSpec(
         "insert.letters",
         "Insert",
@@ -236,16 +276,26 @@ ACTIONS: tuple[ActionSpec, ...] = (
     _line("Span"),
     ActionSpec("play.toggle", "Span", "Play", ("Space",), "play"),
     ActionSpec("play.loop", "Span", "Loop", (), "loop", checkable=True),
+    ActionSpec("play.ping_pong", "Span", "Ping-Pong", (), "ping-pong", checkable=True, tip="Play forth and back"),
+    ActionSpec("play.range_from", "Span", "Play from This Frame"),
+    ActionSpec("play.range_to", "Span", "Play to This Frame"),
+    ActionSpec("play.no_range", "Span", "Play the Whole Film"),
+    _line("Span"),
     ActionSpec("play.previous", "Span", "Previous Frame", (",", "Left"), "previous"),
     ActionSpec("play.next", "Span", "Next Frame", (".", "Right"), "next"),
     ActionSpec("play.previous_key", "Span", "Previous Keyframe", ("Ctrl+,",)),
     ActionSpec("play.next_key", "Span", "Next Keyframe", ("Ctrl+.",)),
     ActionSpec("play.first", "Span", "First Frame", ("Home",), "first"),
     ActionSpec("play.last", "Span", "Last Frame", ("End",), "last"),
+    _line("Span"),
+    ActionSpec(
+        "flip.previous", "Span", "Flip to Previous Drawing", ("A",), tip="Shown as long as the key is held"
+    ),
+    ActionSpec("flip.next", "Span", "Flip to Next Drawing", ("D",), tip="Shown as long as the key is held"),
     ActionSpec("help.keys", "Help", "Keys and Mouse", ("F1",)),
     ActionSpec("help.about", "Help", "About Inkbetween"),
 )
-MENUS = ("File", "Edit", "View", "Draw", "Insert", "Span", "Samples", "Help")
+MENUS = ("File", "Edit", "View", "Draw", "Insert", "Layer", "Span", "Samples", "Help")
 
 
 class ActionTable(QObject):
@@ -266,6 +316,7 @@ class ActionTable(QObject):
         action.setShortcuts([QKeySequence(k) for k in spec.keys])
         action.setShortcutContext(Qt.ShortcutContext.WindowShortcut)
         action.setCheckable(spec.checkable)
+        action.setAutoRepeat(not spec.id.startswith("flip."))
         tip = spec.tip or spec.text.rstrip("…")
         action.setToolTip(f"{tip} ({spec.keys[0]})" if spec.keys else tip)
         action.setStatusTip("")

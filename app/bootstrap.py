@@ -16,8 +16,9 @@ from app.dialogs.help import show_about, show_keys
 from app.dialogs.stage import StageDialog
 from app.editing import Clipboard
 from app.files import Files
+from app.film import Film
 from app.incoming import Incoming
-from app.menus import fill_recent, fill_samples, show_key_menu
+from app.menus import fill_recent, fill_samples
 from app.playback import Playback
 from app.preview.alternatives import AlternativesPreview
 from app.preview.certificates import CertificatePreview
@@ -31,6 +32,7 @@ from app.theme import icon, palette, system_theme
 from app.view import LINES, ViewState
 from app.window import Window
 from core.model.edits import clear_anchors, clear_pins, set_stage, solve_again
+from core.model.motion import HasMotions
 
 ARRANGEMENT_ACTIONS = {"overlaid": "view.overlaid", "side by side": "view.side", "compare": "view.compare"}
 THEME_ACTIONS = {"system": "view.theme_system", "light": "view.theme_light", "dark": "view.theme_dark"}
@@ -63,6 +65,7 @@ class Editor(QObject):
         self.preview = SpanPreview(self)
         self.view_state = ViewState(self.settings, self)
         self.playback = Playback(self.session, self)
+        self.film = Film(self.session, self.playback, self)
         self.clipboard = Clipboard()
         theme = system_theme(self.settings.text("theme", "system"))
         self.ranked = AlternativesPreview(self.preview, self)
@@ -73,6 +76,7 @@ class Editor(QObject):
             self.preview,
             self.ranked,
             self.certificates,
+            self.film.keys,
             self.view_state,
             self.playback,
             self.settings,
@@ -93,7 +97,7 @@ class Editor(QObject):
     # actions
 
     def _runs(self):
-        return (
+        runs = (
             self._file_runs()
             | self._edit_runs()
             | self._insert_runs()
@@ -101,6 +105,7 @@ class Editor(QObject):
             | {name: lambda n=name: self.window.choose_tool(n) for name in self.window.tools}
             | self._key_runs()
         )
+        return self.film.runs(runs, self.window.timeline.track)
 
     def _file_runs(self):
         files, window = self.files, self.window
@@ -139,8 +144,8 @@ class Editor(QObject):
             "edit.select_none": lambda: session.select(Selection()),
         }
 
-    def _tell_copied(self, copy: Callable[[Session, PlanCache], bool], what: str) -> None:
-        if copy(self.session, self.plans):
+    def _tell_copied(self, copy: Callable[[Session, HasMotions], bool], what: str) -> None:
+        if copy(self.session, self.preview):
             self.window.tell(f"Frame {self.session.frame} is on the clipboard as {what}.", "info")
 
     def _insert_runs(self):
@@ -175,9 +180,9 @@ class Editor(QObject):
             "key.copy": lambda: editing.copy_to_other_keyframe(session),
             "key.delete": lambda: editing.delete_current_keyframe(session),
             "span.other_way": lambda: matching.turn_other_way(session, self.preview),
-            "span.clear": self._clear_anchors,
-            "span.clear_pins": self._clear_pins,
-            "span.again": self._solve_again,
+            "span.clear": lambda: self._in_span("Clear Anchors", clear_anchors),
+            "span.clear_pins": lambda: self._in_span("Clear Pins", clear_pins),
+            "span.again": lambda: self._in_span("Solve Again", solve_again),
             "span.flip": lambda: matching.flip(session, self.preview),
             "span.shift_on": lambda: matching.shift(session, self.preview, 1),
             "span.shift_back": lambda: matching.shift(session, self.preview, -1),
@@ -201,20 +206,10 @@ class Editor(QObject):
         now = LINES.index(self.view_state.options.lines)
         self.view_state.set(lines=LINES[(now + 1) % len(LINES)])
 
-    def _clear_anchors(self) -> None:
+    def _in_span(self, label: str, edit) -> None:
         before, after = self.session.span_keyframes()
         if before is not None and after is not None:
-            self.session.apply("Clear Anchors", clear_anchors, self.session.layer.id, before.frame)
-
-    def _clear_pins(self) -> None:
-        before, after = self.session.span_keyframes()
-        if before is not None and after is not None:
-            self.session.apply("Clear Pins", clear_pins, self.session.layer.id, before.frame)
-
-    def _solve_again(self) -> None:
-        before, after = self.session.span_keyframes()
-        if before is not None and after is not None:
-            self.session.apply("Solve Again", solve_again, self.session.layer.id, before.frame)
+            self.session.apply(label, edit, self.session.layer.id, before.frame)
 
     # connections
 
@@ -224,16 +219,21 @@ class Editor(QObject):
         session.documentChanged.connect(self._on_document_changed)
         for signal_ in (session.frameChanged, session.layerChanged):
             signal_.connect(self._refresh)
-        for signal_ in (session.selectionChanged, session.gestureChanged, self.view_state.changed):
+        for signal_ in (
+            session.selectionChanged,
+            session.gestureChanged,
+            session.problem,
+            self.view_state.changed,
+        ):
             signal_.connect(self._refresh)
         session.fileChanged.connect(window.show_title)
         session.fileChanged.connect(self._on_file_changed)
         session.undo_stack.indexChanged.connect(self._refresh)
+        self.film.changed.connect(self._refresh)
         self.playback.changed.connect(self._refresh)
         window.canvas.playPressed.connect(self.playback.toggle)
         methods = {action: method for method, action in METHOD_ACTIONS.items()}
         matching.try_methods_in(window.menus["Span"], methods, session, self.preview)
-        window.timeline.track.menuWanted.connect(lambda _, place: show_key_menu(window, window.table, place))
         window.closeAsked.connect(self._on_close_asked)
         window.fileDropped.connect(lambda name: self.incoming.take(Path(name), self.files.open_path))
         window.canvas.references.unreadable.connect(session.problem, Qt.ConnectionType.QueuedConnection)
@@ -274,6 +274,7 @@ class Editor(QObject):
         table["view.final"].setChecked(options.final)
         table[ARRANGEMENT_ACTIONS[options.arrangement]].setChecked(True)
         self._show_playing()
+        self.film.show_in(table)
 
     def _show_playing(self) -> None:
         table, playing = self.window.table, self.playback.playing

@@ -3,11 +3,9 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QPoint, Qt
-from PySide6.QtWidgets import QMenu, QWidget
+from PySide6.QtWidgets import QMenu
 
 import resources
-from app.actions import ActionTable
 from app.settings import Settings
 
 OpenPath = Callable[[Path], object]
@@ -35,15 +33,3 @@ def fill_recent(menu: QMenu, settings: Settings, open_path: OpenPath) -> None:
     if recent:
         menu.addSeparator()
         menu.addAction("Forget These").triggered.connect(settings.clear_recent)
-
-
-def show_key_menu(parent: QWidget, table: ActionTable, place: QPoint) -> None:
-    """Show what can be done with the keyframe that was clicked."""
-    menu = QMenu(parent)
-    for name in ("key.add", "key.copy", "key.delete"):
-        menu.addAction(table[name])
-    menu.addSeparator()
-    for name in ("edit.copy", "edit.paste"):
-        menu.addAction(table[name])
-    menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-    menu.popup(place)

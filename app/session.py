@@ -17,7 +17,7 @@ from core.model.references import with_absolute_references, with_relative_refere
 
 __all__ = ["AnchorRef", "DocumentDiff", "Gesture", "OutlineRef", "PinRef", "Selection", "Session"]
 
-UNDO_LIMIT = 200
+UNDO_LIMIT = 1000
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 
 from app.actions import ACTIONS, MENUS, ActionTable
 from app.canvas.canvas import Canvas
+from app.keys import Keys
 from app.panels.alternatives import AlternativesPanel
 from app.panels.certificate import CertificatePanel
 from app.panels.drawing import DrawingPanel
@@ -57,6 +58,7 @@ class Window(QMainWindow):
         preview: SpanPreview,
         ranked: AlternativesPreview,
         certificates: CertificatePreview,
+        keys: Keys,
         view: ViewState,
         playback: Playback,
         settings: Settings,
@@ -73,7 +75,7 @@ class Window(QMainWindow):
             "tool.correspond": CorrespondTool(self.canvas),
             "tool.pin": PinTool(self.canvas),
         }
-        self.timeline = Timeline(session, view, playback, certificates, theme, self.table.actions)
+        self.timeline = Timeline(session, view, playback, certificates, keys, theme, self.table.actions)
         self.alternatives_panel = AlternativesPanel(session, preview, ranked, theme)
         self.span_panel = SpanPanel(session, view, self.table.actions, preview, self.alternatives_panel)
         self.easing_panel = EasingPanel(session, theme)

@@ -6,6 +6,7 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QSlider, QToolButton, QVBoxLayout, QWidget
 
+from app.keys import Keys
 from app.panels.parts import label, number_field, separator
 from app.panels.track import Track
 from app.playback import Playback
@@ -30,6 +31,7 @@ class Timeline(QWidget):
         view: ViewState,
         playback: Playback,
         certificates: CertificatePreview,
+        keys: Keys,
         theme: Theme,
         actions: dict[str, QAction],
         parent: QWidget | None = None,
@@ -38,7 +40,7 @@ class Timeline(QWidget):
         self.setObjectName("timeline")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.session, self.view_state, self.playback, self.theme = session, view, playback, theme
-        self.track = Track(session, certificates, theme)
+        self.track = Track(session, certificates, keys, theme, actions)
         box = QVBoxLayout(self)
         box.setContentsMargins(0, 0, 0, 0)
         box.setSpacing(0)
@@ -57,7 +59,10 @@ class Timeline(QWidget):
         row = QHBoxLayout(bar)
         row.setContentsMargins(12, 8, 16, 8)
         row.setSpacing(4)
-        for name in ("play.first", "play.previous", "play.toggle", "play.next", "play.last", "play.loop"):
+        for name in ("play.first", "play.previous", "play.toggle", "play.next", "play.last"):
+            row.addWidget(action_button(actions[name]))
+        row.addSpacing(6)
+        for name in ("play.loop", "play.ping_pong", "key.add"):
             row.addWidget(action_button(actions[name]))
         row.addSpacing(10)
         self.t_label = label("", "strong")
@@ -91,6 +96,14 @@ class Timeline(QWidget):
         self.rate_field.editingFinished.connect(self._on_rate)
         row.addWidget(self.rate_field)
         row.addWidget(label("fps", "muted"))
+        self.dropped_label = label("", "badge")
+        self.dropped_label.setToolTip("Frames that were not shown in time since playing began")
+        self.playback.dropping.connect(self._show_dropped)
+        row.addSpacing(6)
+        row.addWidget(self.dropped_label)
+
+    def _show_dropped(self, count: int) -> None:
+        self.dropped_label.setText(f"{count} dropped" if count else "")
 
     def _onion_fields(self) -> QWidget:
         fields = QWidget()

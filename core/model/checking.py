@@ -65,20 +65,15 @@ class SpanCertificate:
         problem = self.worst.get(frame)
         return problem.severity if problem else ""
 
-    def worst_near(self, frame: int) -> Problem | None:
-        """Return the worst problem of the kind that a frame has, in the run of frames as bad; None if clean."""
-        here = self.worst.get(frame)
-        if here is None:
-            return None
-        first, last, _ = next(run for run in self.runs if run[0] <= frame <= run[1])
-        alike = [
-            p
-            for p in self.certificate.problems
-            if (p.kind, p.severity) == (here.kind, here.severity)
-            and p.frame is not None
-            and first <= self.frames[p.frame] <= last
-        ]
-        return max(alike, key=_badness)
+    def worst_near(self, frame: int) -> int:
+        """Return the worst frame of the run that a frame with a problem lies in, or else the frame itself."""
+        for first, last, severity in self.runs:
+            if severity in SEVERITIES[:2] and first <= frame <= last:
+                within = {f: self.worst[f] for f in range(first, last + 1) if f in self.worst}
+                kind = within[frame].kind if frame in within else ""
+                alike = [f for f, p in within.items() if p.kind == kind]
+                return max(alike, key=lambda f: _badness(within[f]), default=frame)
+        return frame
 
 
 def certify_span(motion: SpanMotion) -> SpanCertificate:
