@@ -137,13 +137,13 @@ def test_a_big_file_shows_its_progress_and_the_window_stays_awake(hand, big, qtb
     beat = QTimer(hand.editor)
     beat.timeout.connect(lambda: done.append(dialog.bar.value()))
     beat.start(20)
-    qtbot.waitUntil(lambda: dialog.bar.value() > 300, timeout=20_000)
+    qtbot.waitUntil(lambda: dialog.bar.value() > 400, timeout=20_000)
+    beat.stop()
     hand.press_button(dialog.buttons.button(QDialogButtonBox.StandardButton.Cancel))
     arrived(hand, qtbot)
-    beat.stop()
     assert hand.message == "The import of big.svg was cancelled."
     assert hand.session.layer.keyframes == ()
-    read = [share for share in done if share > 0]  # the first stage is told in one piece
+    read = [share for share in done if share >= 250]  # the file is taken apart before, which is quick
     assert len(read) > 3
     assert np.diff(read).max() <= 100  # of 1000: the window never waits for more than a small part of the work
 
