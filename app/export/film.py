@@ -22,8 +22,6 @@ class Shot:
 
     Attributes
     ----------
-    index : int
-        From 0, in the order of time.
     frame : int
         Its number for file names.
     time : float
@@ -34,7 +32,6 @@ class Shot:
         From 1: counts what is written.
     """
 
-    index: int
     frame: int
     time: float
     count: int = 1
@@ -68,7 +65,7 @@ class Film:
         step = self.document.rate / self.rate
         count = count_pictures(self.settings, self.document.rate)
         first = self.settings.first
-        every = [Shot(i, first + i, _time(first + i * step), 1, i + 1) for i in range(count)]
+        every = [Shot(first + i, _time(first + i * step), 1, i + 1) for i in range(count)]
         return self._drawings(every) if self.settings.exposures else every
 
     def _drawings(self, shots: list[Shot]) -> list[Shot]:

@@ -25,7 +25,7 @@ MOST_PAINTERS = 8
 MOST_ENCODERS = 4
 PIXELS_IN_FLIGHT = 48_000_000
 """Pictures rendered and not yet written hold up to 12 bytes a pixel: half a gigabyte at most."""
-WORTH_A_PROCESS = 80_000_000
+WORTH_A_PROCESS = 120_000_000
 """Pixels in all; fewer are painted in the time that a process takes to start."""
 STOPPED = InkbetweenError(
     "a process that painted has ended before its time; is the memory full? Try a smaller size, or one process"

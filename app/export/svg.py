@@ -1,11 +1,10 @@
 """A frame as SVG: true paths, even-odd, straight alpha, the stage as the visible part."""
 
-from collections.abc import Iterable, Sequence
-from html import escape
+from collections.abc import Iterable
 
 from core.geometry.outline import FloatArray
 from core.model.document import Stage
-from core.model.drawing import Color
+from core.model.drawing import Color, Style
 from core.model.inbetweens import Picture
 
 DIGITS = 3
@@ -17,13 +16,10 @@ def frame_svg(
     stage: Stage,
     size: tuple[int, int],
     background: Color | None,
-    names: Sequence[str] = (),
 ) -> str:
-    """Return the SVG file of one frame; `names` are the layers', in the order of the pictures."""
+    """Return the SVG file of one frame, a group a layer."""
     parts = [svg_head(stage, size, background)]
-    for i, picture in enumerate(pictures):
-        label = f' id="{escape(names[i])}"' if i < len(names) else ""
-        parts.append(f"<g{label}{opacity_attribute(picture)}>{''.join(picture_paths(picture))}</g>\n")
+    parts += [f"<g{opacity_attribute(p)}>{''.join(picture_paths(p))}</g>\n" for p in pictures]
     return "".join([*parts, "</svg>\n"])
 
 
@@ -62,13 +58,13 @@ def picture_paths(picture: Picture) -> list[str]:
     return paths
 
 
-def closed_attributes(style: object) -> str:
+def closed_attributes(style: Style) -> str:
     """Return how closed outlines are painted."""
     fill = paint_attributes("fill", style.fill)
     return f'{fill} fill-rule="evenodd"{_stroke(style.stroke, style.width)}'
 
 
-def open_attributes(style: object) -> str:
+def open_attributes(style: Style) -> str:
     """Return how open outlines are painted: their own colour, or that of the fill; never filled."""
     return f' fill="none"{_stroke(style.stroke or style.fill, style.width)}'
 

@@ -302,7 +302,7 @@ class _Reader:
         if path.item["ty"] == "sh":
             shapes = beziers(path.keys["ks"], times)
         else:
-            shapes = (rectangle if path.item["ty"] == "rc" else ellipse)(path.item, times, path.keys)
+            shapes = (rectangle if path.item["ty"] == "rc" else ellipse)(times, path.keys)
         matrices = [matrix_at(path.placings, t) for t in times]
         scale = max(math.sqrt(abs(np.linalg.det(m[:2, :2]))) for m in matrices)
         flat = polygons(shapes, scale)

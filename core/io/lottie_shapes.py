@@ -75,12 +75,12 @@ def _complex(points: Any) -> ComplexArray:
     return found
 
 
-def rectangle(item: Any, times: Sequence[float], keys: dict[str, list[Key]]) -> list[Bezier]:
+def rectangle(times: Sequence[float], keys: dict[str, list[Key]]) -> list[Bezier]:
     """Return a rectangle, its corners round or not, at every time."""
     return [_rounded(*_box(keys, t), float(vector_at(keys["r"], t, 1)[0])) for t in times]
 
 
-def ellipse(item: Any, times: Sequence[float], keys: dict[str, list[Key]]) -> list[Bezier]:
+def ellipse(times: Sequence[float], keys: dict[str, list[Key]]) -> list[Bezier]:
     """Return an ellipse at every time, from its top clockwise."""
     return [_ellipse(*_box(keys, t)) for t in times]
 

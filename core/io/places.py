@@ -49,8 +49,10 @@ def decoded(content: Any, kind: type[T]) -> T:
 
 
 def _short(text: str) -> str:
-    """Cut out the middle of a text that repeats what a hostile file says."""
-    return text if len(text) <= LONGEST_TEXT else f"{text[:100]}…{text[100 - LONGEST_TEXT :]}"
+    """Make one line of a text that repeats what a hostile file says, and cut out the middle of a long one."""
+    if len(text) > LONGEST_TEXT:
+        text = f"{text[:100]}…{text[100 - LONGEST_TEXT :]}"
+    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
 
 
 def decoded_at(raw: msgspec.Raw, kind: type[T], where: str) -> T:

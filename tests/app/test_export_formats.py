@@ -327,6 +327,7 @@ def test_an_interrupted_export_is_continued_with_the_missing_frames_only(tmp_pat
 def test_a_painter_that_dies_is_one_sentence_and_leaves_nothing(tmp_path, monkeypatch):
     document = film(length=400, size=(640, 480))
     crews = []
+    wait_until_up(monkeypatch)
     begin = pool._Processes.__init__
     monkeypatch.setattr(pool._Processes, "__init__", lambda self, *a: (crews.append(self), begin(self, *a))[1])
 

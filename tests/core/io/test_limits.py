@@ -136,7 +136,15 @@ def test_a_document_of_200_000_vertices_comes_back_equal():
     assert decode(encode(document)) == document
 
 
-# the kept files and the schema
+def test_an_unknown_field_cannot_make_more_than_one_short_line_of_a_message():
+    content = encode(everything_of_version_2()).replace(b'"turns"', b'"' + b"\\n" * 10_000 + b'"', 1)
+    with pytest.raises(FileFormatError, match="unknown field") as error:
+        decode(content)
+    assert len(str(error.value)) < 500
+    assert str(error.value).isprintable()
+
+
+# the schema
 
 ROOT = Path(__file__).resolve().parents[3]
 
