@@ -187,7 +187,11 @@ ACTIONS: tuple[ActionSpec, ...] = (
         tip="Put a copy of the drawing into the other keyframe of the span, or on the last frame if there is none",
     ),
     ActionSpec(
-        "key.delete", "Draw", "Delete Keyframe", ("Shift+F6",), tip="Take away the keyframe at the playhead"
+        "key.delete",
+        "Draw",
+        "Delete Keyframe",
+        ("Shift+F6",),
+        tip="Take away the selected keyframes, else the one at the playhead",
     ),
     _line("Draw"),
     ActionSpec(
@@ -196,7 +200,6 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Duplicate Keyframes",
         tip="Put copies behind the selected keyframes",
     ),
-    ActionSpec("key.delete_chosen", "Draw", "Delete Selected Keyframes"),
     ActionSpec(
         "key.hold",
         "Draw",

@@ -35,29 +35,39 @@ class Film(QObject):
     def runs(self, others: Runs, track: Track) -> Runs:
         """Return what every action runs: `others`, and those of the timeline.
 
-        While the timeline has the keyboard, cut, copy and the like are of keyframes.
+        While the timeline has the keyboard and keyframes are selected, cut, copy and the like are of keyframes.
+        What was copied last is what is pasted.
         """
+        keys = self.keys
         of_keys: Runs = {
-            "edit.cut": self.keys.cut,
-            "edit.copy": self.keys.copy,
-            "edit.paste": self.keys.paste,
-            "edit.delete": self.keys.delete,
-            "edit.select_all": self.keys.choose_all,
-            "edit.select_none": lambda: self.keys.choose(()),
-            "key.copy": self.keys.duplicate,
+            "edit.cut": keys.cut,
+            "edit.copy": keys.copy,
+            "edit.delete": keys.delete,
+            "edit.select_all": keys.choose_all,
+            "edit.select_none": lambda: keys.choose(()),
+            "key.copy": keys.duplicate,
         }
 
-        def by_focus(of_key: Callable[[], object], other: Callable[[], object]) -> Callable[[], object]:
-            return lambda: of_key() if track.hasFocus() else other()
+        def aimed(of_key: Callable[[], object], other: Callable[[], object], *, copies: bool) -> None:
+            if track.hasFocus() and keys.chosen:
+                of_key()
+            else:
+                keys.copied = () if copies else keys.copied
+                other()
 
-        focused = {name: by_focus(run, others[name]) for name, run in of_keys.items()}
-        return others | focused | self._key_runs() | self._layer_runs(track) | self._play_runs(track)
+        def by_focus(name: str) -> Callable[[], object]:
+            copies = name in ("edit.cut", "edit.copy")
+            return lambda: aimed(of_keys[name], others[name], copies=copies)
+
+        both = {name: by_focus(name) for name in of_keys}
+        both["edit.paste"] = lambda: keys.paste() if keys.copied else others["edit.paste"]()
+        both["key.delete"] = lambda: keys.delete() if keys.chosen else others["key.delete"]()
+        return others | both | self._key_runs() | self._layer_runs(track) | self._play_runs(track)
 
     def _key_runs(self) -> Runs:
         session, keys = self.session, self.keys
         return {
             "key.duplicate": keys.duplicate,
-            "key.delete_chosen": keys.delete,
             "key.hold": lambda: keys.set_hold(not _all(k.span.hold for k in keys.keyframes())),
             "key.smooth": lambda: keys.set_smooth(not _all(k.smooth for k in keys.keyframes())),
             "frame.insert": lambda: insert_frame(session, everywhere=False),
@@ -102,7 +112,7 @@ class Film(QObject):
             ("play.ping_pong", self.playback.ping_pong),
         ):
             table[name].setChecked(on)
-        for name in ("key.hold", "key.smooth", "key.duplicate", "key.delete_chosen"):
+        for name in ("key.hold", "key.smooth", "key.duplicate", "key.delete"):
             table[name].setEnabled(bool(keyframes))
         table["play.no_range"].setEnabled(session.has_range)
 

@@ -106,9 +106,6 @@ class Keys(QObject):
 
     def paste(self) -> None:
         """Put the remembered keyframes into the active layer at the playhead, and select them."""
-        if not self.copied:
-            self.session.problem.emit("No keyframe was copied yet: select some and press Ctrl+C.")
-            return
         layer, frame = self.session.layer.id, self.session.frame
         self._make(_many("Paste Keyframe", self.copied), paste_keyframes, self.copied, layer, frame)
 

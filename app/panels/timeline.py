@@ -15,8 +15,9 @@ from app.session import Session
 from app.theme import Theme
 from app.view import ViewState
 from core.errors import InkbetweenError
-from core.model.document import LONGEST, as_rate, ratio_in_span
+from core.model.document import LONGEST, as_rate
 from core.model.edits import set_length, set_rate
+from core.model.timing import drawn_ratio
 
 ROOMY = 860
 """Width in px from which the onion skin's fields fit beside the rest."""
@@ -154,7 +155,10 @@ class Timeline(QWidget):
         before, after = self.session.span_keyframes()
         if before is None or after is None:
             return ""
-        t = before.span.easing.t_at(ratio_in_span(before, after, self.session.frame))
+        length, offset = after.frame - before.frame, self.session.frame - before.frame
+        if before.span.hold and offset < length:
+            return "hold"
+        t = before.span.easing.t_at(drawn_ratio(before.span, length, offset) if offset < length else 1.0)
         return f"t {float(t):.2f}"
 
     def _on_length(self, length: int) -> None:

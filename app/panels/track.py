@@ -10,7 +10,7 @@ from PySide6.QtGui import (
     QKeyEvent,
     QMouseEvent,
     QPainter,
-    QPen,
+    QPixmap,
     QResizeEvent,
     QWheelEvent,
 )
@@ -19,9 +19,10 @@ from PySide6.QtWidgets import QScrollBar, QSizePolicy, QToolButton, QWidget
 from app.keys import Keys
 from app.panels import track_header, track_menus
 from app.panels.track_drags import Band, Drag, MoveKeys, MoveLayer, Scrub, SetRange, StretchKeys
-from app.panels.track_header import HeaderPainter, NameField
+from app.panels.track_header import NameField
+from app.panels.track_picture import whole_picture
 from app.panels.track_rows import SEVERITY_COLORS, RowPainter
-from app.panels.track_ruler import paint_playhead, paint_ruler, range_edge_under, small_font
+from app.panels.track_ruler import paint_playhead, range_edge_under, small_font
 from app.panels.track_spot import Spot
 from app.panels.track_view import HEADER, ROW, RULER, TrackView
 from app.preview.certificates import CertificatePreview
@@ -71,10 +72,11 @@ class Track(QWidget):
         self.actions_by_id = actions
         self.view = TrackView(session)
         self._painted: list[SpanCertificate | None] = []
+        self._picture: QPixmap | None = None
         self._spot = Spot(self.view, certificates, keys)
         self._drag: Drag | None = None
-        self._hover_key: KeyRef | None = None
-        self._hover_part: tuple[int, str] | None = None
+        self.hover_key: KeyRef | None = None
+        self.hover_part: tuple[int, str] | None = None
         self.name_field: NameField | None = None
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
@@ -100,7 +102,7 @@ class Track(QWidget):
         session.frameChanged.connect(self._on_frame_changed)
         session.layerChanged.connect(self._on_layer_changed)
         for signal in (session.soloChanged, session.rangeChanged, self.keys.changed, self.certificates.changed):
-            signal.connect(self.update)
+            signal.connect(self.refresh)
 
     def sizeHint(self) -> QSize:
         return QSize(600, RULER + 3 * ROW)
@@ -110,7 +112,7 @@ class Track(QWidget):
 
     def set_theme(self, theme: Theme) -> None:
         self.theme = theme
-        self.update()
+        self.refresh()
 
     # places
 
@@ -188,7 +190,7 @@ class Track(QWidget):
         if part == "solo":
             self.session.set_solo(self.session.solo ^ {layer.id})
         else:
-            self.session.apply(*_switched(layer, part))
+            self.session.apply(*track_header.switched(layer, part))
         return None
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
@@ -232,15 +234,15 @@ class Track(QWidget):
         tip = self._spot.tip(at, key, part)
         if tip != self.toolTip():
             self.setToolTip(tip)
-        if (key, part) != (self._hover_key, self._hover_part):
-            self._hover_key, self._hover_part = key, part
-            self.update()
+        if (key, part) != (self.hover_key, self.hover_part):
+            self.hover_key, self.hover_part = key, part
+            self.refresh()
         wide = key is not None or self._spot.edge(at)
         self.setCursor(Qt.CursorShape.SizeHorCursor if wide else Qt.CursorShape.ArrowCursor)
 
     def leaveEvent(self, _: object) -> None:
-        self._hover_key = self._hover_part = None
-        self.update()
+        self.hover_key = self.hover_part = None
+        self.refresh()
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         at = QPointF(event.pos())
@@ -302,11 +304,15 @@ class Track(QWidget):
         if order or diff.frame_range or _shown(diff.before, layers) != _shown(diff.after, layers):
             self._show_scroll()
         elif self._certificates() != self._painted:
-            self.update()
+            self.refresh()
 
     def _on_frame_changed(self, frame: int) -> None:
+        left = self.view.left
         self.view.show(frame)
-        self._show_scroll()
+        if self.view.left == left:
+            self.update()
+        else:
+            self._show_scroll()
 
     def _on_layer_changed(self) -> None:
         self.view.show_row(self.view.row_of(self.session.layer.id))
@@ -325,7 +331,7 @@ class Track(QWidget):
     def _scroll_to(self, left: float, top: float) -> None:
         if (round(self.view.left), round(self.view.top)) != (round(left), round(top)):
             self.view.left, self.view.top = left, top
-            self.update()
+            self.refresh()
 
     def _show_scroll(self) -> None:
         """Bring the scroll bars in line with what is shown, and paint."""
@@ -339,7 +345,7 @@ class Track(QWidget):
             bar.setVisible(most >= 1)
         self.across.setGeometry(QRect(HEADER, self.height() - BARELY, self.width() - HEADER - BARELY, BARELY))
         self.down.setGeometry(QRect(self.width() - BARELY, RULER, BARELY, self.height() - RULER - BARELY))
-        self.update()
+        self.refresh()
 
     def _certificates(self) -> list[SpanCertificate | None]:
         keyframes = self.session.layer.keyframes
@@ -347,50 +353,26 @@ class Track(QWidget):
 
     # painting
 
+    def refresh(self) -> None:
+        """Paint everything anew; `update` paints only the active row and the playhead over the rest."""
+        self._picture = None
+        self.update()
+
     def paintEvent(self, _: object) -> None:
-        self._painted = self._certificates()
+        if self._picture is None or self._picture.size() != self.size() * self.devicePixelRatio():
+            self._painted = self._certificates()
+            self._picture = whole_picture(self)
         view, theme = self.view, self.theme
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.fillRect(self.rect(), theme.color("panel"))
-        self._paint_rows(painter)
-        painter.fillRect(QRectF(0, 0, self.width(), RULER), theme.color("panel"))
-        painter.save()
+        painter.drawPixmap(0, 0, self._picture)
+        painter.setClipRect(QRectF(HEADER, RULER, self.width(), self.height()))
+        rows = RowPainter(painter, view, theme, self.certificates)
+        rows.paint(view.row_of(self.session.layer.id), self.session.layer, self.keys.chosen, self.hover_key)
+        rows.paint_grips(self.keys.chosen)
         painter.setClipRect(QRectF(HEADER, 0, self.width(), self.height()))
-        paint_ruler(painter, view, theme, small_font(self))
-        paint_playhead(painter, view, theme, small_font(self, bold=True))
-        painter.restore()
-        painter.setPen(theme.color("muted"))
-        painter.setFont(small_font(self, bold=True))
-        painter.drawText(QRectF(14, 0, 100, RULER), int(Qt.AlignmentFlag.AlignVCenter), "LAYERS")
-        painter.setPen(QPen(theme.color("line"), 1))
-        painter.drawLine(QPointF(HEADER - 0.5, 0), QPointF(HEADER - 0.5, self.height()))
+        paint_playhead(painter, view, theme, small_font(self.font(), bold=True))
+        painter.setClipping(False)
         if self._drag is not None:
             self._drag.paint(painter)
         painter.end()
-
-    def _paint_rows(self, painter: QPainter) -> None:
-        rows = RowPainter(painter, self.view, self.theme, self.certificates)
-        heads = HeaderPainter(painter, self.view, self.theme, self.font())
-        for row, layer in enumerate(self.view.rows):
-            rect = self.view.row_rect(row)
-            if rect.bottom() < RULER or rect.top() > self.height():
-                continue
-            if layer.id == self.session.layer.id:
-                painter.fillRect(rect, self.theme.color("raised"))
-            painter.setPen(QPen(self.theme.color("line", 0.5), 1))
-            painter.drawLine(rect.bottomLeft() + QPointF(0, -0.5), rect.bottomRight() + QPointF(0, -0.5))
-            rows.paint(row, layer, self.keys.chosen, self._hover_key)
-            heads.paint(row, layer, self._hover_part)
-        rows.paint_grips(self.keys.chosen)
-
-
-def _switched(layer: Layer, part: str):  # type: ignore[no-untyped-def]
-    """Return the edit that turns a layer's eye or lock, with its label, for `Session.apply`."""
-    on = getattr(layer, part)
-    labels = {"visible": ("Show Layer", "Hide Layer"), "locked": ("Lock Layer", "Unlock Layer")}
-
-    def edit(document: Document) -> Document:
-        return set_layer(document, layer.id, **{part: not on})
-
-    return labels[part][on], edit

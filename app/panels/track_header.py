@@ -10,7 +10,8 @@ from PySide6.QtWidgets import QLineEdit, QWidget
 from app.layercolors import layer_color
 from app.panels.track_view import HEADER, ROW, TrackView
 from app.theme import Theme, pixmap
-from core.model.document import Layer
+from core.model.document import Document, Layer
+from core.model.edits import set_layer
 
 BUTTON = 22.0
 PARTS = ("solo", "locked", "visible")
@@ -52,6 +53,17 @@ def tip_of(view: TrackView, layer: Layer, part: str) -> str:
     if part == "name":
         return f"{layer.name}: double click to rename, drag to reorder"
     return TIPS[part][is_on(view, layer, part)]
+
+
+def switched(layer: Layer, part: str) -> tuple[str, Callable[[Document], Document]]:
+    """Return the edit that turns a layer's eye or lock, with its label, for `Session.apply`."""
+    on = getattr(layer, part)
+    labels = {"visible": ("Show Layer", "Hide Layer"), "locked": ("Lock Layer", "Unlock Layer")}
+
+    def edit(document: Document) -> Document:
+        return set_layer(document, layer.id, **{part: not on})
+
+    return labels[part][on], edit
 
 
 class HeaderPainter:

@@ -15,7 +15,7 @@ from core.errors import InkbetweenError
 from core.model.document import Layer
 from core.model.edits import set_layer, set_parent
 
-KEY_ACTIONS = ("edit.cut", "edit.copy", "edit.paste", "key.duplicate", "key.delete_chosen")
+KEY_ACTIONS = ("edit.cut", "edit.copy", "edit.paste", "key.duplicate", "key.delete")
 FRAME_ACTIONS = ("frame.insert", "frame.remove", "frame.insert_all", "frame.remove_all")
 LAYER_ACTIONS = ("layer.add", "layer.rename", "layer.duplicate", "layer.delete")
 SWITCHES = ("layer.show", "layer.lock", "layer.solo")

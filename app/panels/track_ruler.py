@@ -2,7 +2,6 @@
 
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFont, QPainter, QPen, QPolygonF
-from PySide6.QtWidgets import QWidget
 
 from app.panels.track_view import HEADER, RULER, TrackView
 from app.session import Session
@@ -15,8 +14,8 @@ EDGE = 6.0
 RANGE_TOP = RULER - 6.0
 
 
-def small_font(widget: QWidget, *, bold: bool = False) -> QFont:
-    font = QFont(widget.font())
+def small_font(like: QFont, *, bold: bool = False) -> QFont:
+    font = QFont(like)
     font.setPixelSize(11)
     font.setBold(bold)
     return font
@@ -41,18 +40,20 @@ def paint_ruler(painter: QPainter, view: TrackView, theme: Theme, font: QFont) -
     first, last = max(1, view.frame_at(HEADER)), min(length, view.frame_at(view.width))
     each = next((n for n in SELDOM if n * step >= 44), SELDOM[-1])
     fine = next((n for n in SELDOM if n * step >= 6), SELDOM[-1])
-    for frame in range(first, last + 1):
-        numbered = frame == 1 or frame % each == 0 or frame == length
-        if not numbered and frame % fine:
-            continue
+    numbered = {1, length, *_multiples(each, first, last)}
+    for frame in sorted(numbered | _multiples(fine, first, last)):
         x = view.x_of(frame)
-        painter.setPen(QPen(theme.color("muted" if numbered else "line"), 1))
-        painter.drawLine(QPointF(x, RULER - (8 if numbered else 5)), QPointF(x, RULER - 1))
+        painter.setPen(QPen(theme.color("muted" if frame in numbered else "line"), 1))
+        painter.drawLine(QPointF(x, RULER - (8 if frame in numbered else 5)), QPointF(x, RULER - 1))
         crowded = frame == length and frame % each and (frame % each) * step < 26
-        if numbered and not crowded:
+        if frame in numbered and not crowded:
             painter.drawText(QRectF(x - 24, 4, 48, 16), int(Qt.AlignmentFlag.AlignCenter), str(frame))
     if view.session.has_range:
         _paint_range(painter, view, view.session, theme)
+
+
+def _multiples(number: int, first: int, last: int) -> set[int]:
+    return set(range(-(-first // number) * number, last + 1, number))
 
 
 def _paint_range(painter: QPainter, view: TrackView, session: Session, theme: Theme) -> None:

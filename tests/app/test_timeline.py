@@ -247,6 +247,19 @@ def test_cut_and_paste_move_a_keyframe_to_another_layer(timeline):
     assert timeline.session.document.layer(1).keyframe_at(30).drawing == drawing
 
 
+def test_what_was_copied_last_is_pasted_outlines_or_keyframes(timeline):
+    timeline.click(timeline.key(2, 13))
+    timeline.press_key(Key.Key_C, CTRL)
+    timeline.hand.canvas.setFocus()
+    timeline.hand.key(Key.Key_A, CTRL)
+    timeline.hand.key(Key.Key_C, CTRL)
+    timeline.click(timeline.ruler(20))  # the timeline has the keyboard, and yet an outline was copied last
+    timeline.press_key(Key.Key_V, CTRL)
+    assert timeline.frames(2) == (5, 13, 20, 25)
+    assert timeline.session.selection.count == 4
+    assert timeline.hand.editor.window.table["edit.undo"].text() == "Undo Paste"
+
+
 def test_duplicates_follow_the_last_one_and_are_selected(timeline):
     timeline.click(timeline.key(2, 13))
     timeline.press_key(Key.Key_D, CTRL)
