@@ -123,14 +123,14 @@ class Easing:
         """
         pieces = self.pieces()
         i = int(np.clip(np.searchsorted(pieces[:, 0, 0], ratio, side="right") - 1, 0, len(pieces) - 1))
-        left, right = _split(pieces[i], ratio)
+        left, right = split(pieces[i], ratio)
         middle = left[3]
         if not (0 < middle[0] < 1 and 1e-6 < middle[1] < 1 - 1e-6):
             return None
         try:
             return (
-                _chained([*(p / middle for p in pieces[:i]), left / middle]),
-                _chained([(p - middle) / (1 - middle) for p in (right, *pieces[i + 1 :])]),
+                chained([p / middle for p in (*pieces[:i], *_tame(left))]),
+                chained([(p - middle) / (1 - middle) for p in (*_tame(right), *pieces[i + 1 :])]),
             )
         except DocumentError:
             return None
@@ -145,7 +145,7 @@ def _bezier(ends: FloatArray, u: FloatArray) -> FloatArray:
     return result
 
 
-def _split(piece: FloatArray, x: float) -> tuple[FloatArray, FloatArray]:
+def split(piece: FloatArray, x: float) -> tuple[FloatArray, FloatArray]:
     """Cut a piece at a ratio, after de Casteljau."""
     low, high = 0.0, 1.0
     for _ in range(52):
@@ -158,7 +158,19 @@ def _split(piece: FloatArray, x: float) -> tuple[FloatArray, FloatArray]:
     return np.stack([r[0] for r in rows]), np.stack([r[-1] for r in rows[::-1]])
 
 
-def _chained(pieces: Sequence[FloatArray]) -> Easing:
+def _tame(piece: FloatArray, halvings: int = 6) -> list[FloatArray]:
+    """Cut a part of a curve until the handles of all its pieces lie within them.
+
+    Those of a curve that rises may lie in the wrong order, and then a part of it has handles beyond its ends.
+    """
+    x0, x1, x2, x3 = piece[:, 0]
+    if halvings == 0 or (x0 <= x1 <= x3 and x0 <= x2 <= x3):
+        return [piece]
+    first, second = split(piece, float(x0 + x3) / 2)
+    return [*_tame(first, halvings - 1), *_tame(second, halvings - 1)]
+
+
+def chained(pieces: Sequence[FloatArray]) -> Easing:
     """Return the easing of pieces that join from (0, 0) to (1, 1)."""
     knots = tuple(Knot(*map(float, (*b[0], *a[2], *b[1]))) for a, b in pairwise(pieces))
     ends = np.clip([pieces[0][1, 0], pieces[-1][2, 0]], 0, 1).tolist()
