@@ -1,5 +1,7 @@
 """The main window: lays the parts out and joins them; what they do is elsewhere."""
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import (
@@ -20,7 +22,7 @@ from app.panels.alternatives import AlternativesPanel
 from app.panels.certificate import CertificatePanel
 from app.panels.drawing import DrawingPanel
 from app.panels.easing import EasingPanel
-from app.panels.messagebar import MessageBar
+from app.panels.messagebar import Choice, MessageBar
 from app.panels.parts import separator
 from app.panels.reference import ReferencePanel
 from app.panels.span import SpanPanel
@@ -213,9 +215,9 @@ class Window(QMainWindow):
         self.hint_label.setToolTip(tool.hint)
         self.canvas.setFocus()
 
-    def tell(self, text: str, kind: str = "error") -> None:
-        """Show one sentence over the canvas."""
-        self.message_bar.show_message(text, kind)
+    def tell(self, text: str, kind: str = "error", choices: Sequence[Choice] = ()) -> None:
+        """Show one sentence over the canvas, with buttons for what can be done about it."""
+        self.message_bar.show_message(text, kind, choices)
 
     def show_title(self) -> None:
         """Name the file and mark unsaved changes in the title and the status bar."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QIcon, QPainter, QPixmap
 from PySide6.QtWidgets import (
     QButtonGroup,
@@ -19,9 +19,13 @@ from PySide6.QtWidgets import (
 
 
 class Segments(QWidget):
-    """A few choices beside each other, one of them on; `chosen` only when a person chooses."""
+    """A few choices beside each other, one of them on; `chosen` only when a person chooses.
+
+    `pointed` tells the choice under the pointer, "" when it has left.
+    """
 
     chosen = Signal(str)
+    pointed = Signal(str)
 
     def __init__(self, choices: Sequence[tuple[str, str, str]], parent: QWidget | None = None) -> None:
         """`choices` are (value, text, tooltip)."""
@@ -42,9 +46,17 @@ class Segments(QWidget):
             button.setProperty("segment", True)
             button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
             button.clicked.connect(lambda _=False, v=value: self.chosen.emit(v))
+            button.installEventFilter(self)
             self._group.addButton(button)
             self._buttons[value] = button
             row.addWidget(button)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if event.type() == QEvent.Type.Enter and self.isEnabled():
+            self.pointed.emit(next(v for v, button in self._buttons.items() if button is watched))
+        elif event.type() == QEvent.Type.Leave:
+            self.pointed.emit("")
+        return super().eventFilter(watched, event)
 
     def set_value(self, value: str) -> None:
         """Show a choice, without telling anyone."""

@@ -162,8 +162,8 @@ def test_progress_is_one_line_and_only_on_a_terminal(project, tmp_path):
     shown = os.read(main_end, 10_000).decode()
     os.close(main_end)
     assert ended.returncode == 0
-    assert "\rframe 1 of 6" in shown
-    assert shown.endswith("\rframe 6 of 6\r\x1b[K")
+    assert "\r[#####.........................] 1 of 6\x1b[K" in shown
+    assert shown.endswith(f"\r[{'#' * 30}] 6 of 6\x1b[K\r\x1b[K")
     assert "\n" not in shown
 
 
@@ -179,7 +179,9 @@ def test_ctrl_c_stops_between_frames_with_130_and_no_traceback(tmp_path):
     said = export.communicate(timeout=30)[1]
     files = os.listdir(out)
     assert export.returncode == 130
-    assert said == f"inkbetween: stopped; {len(files)} complete frames stay in {out}\n"
+    assert (
+        said == f"inkbetween: stopped; {len(files)} complete frames stay in {out}, and --continue makes the rest\n"
+    )
     assert 3 <= len(files) < 20_000
     assert all((out / name).read_bytes().endswith(b"IEND\xaeB`\x82") for name in files)
 
@@ -252,11 +254,11 @@ def test_missing_libraries_of_x_are_named_by_their_packages(no_display, opened, 
 def test_a_qt_that_cannot_be_imported_is_one_sentence(error, sentence, project, tmp_path, monkeypatch, capsys):
     class Refuse:
         def find_spec(self, name, path=None, target=None):
-            if name == "app.export.frames":
+            if name == "app.export.export":
                 raise error
 
-    monkeypatch.delitem(sys.modules, "app.export.frames", raising=False)
-    monkeypatch.delattr("app.export.frames", raising=False)
+    monkeypatch.delitem(sys.modules, "app.export.export", raising=False)
+    monkeypatch.delattr("app.export.export", raising=False)
     monkeypatch.setattr(sys, "meta_path", [Refuse(), *sys.meta_path])
     assert main(["export", str(project), str(tmp_path / "out")]) == 1
     said = capsys.readouterr().err
