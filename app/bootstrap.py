@@ -139,8 +139,8 @@ class Editor(QObject):
             "edit.select_none": lambda: session.select(Selection()),
         }
 
-    def _tell_copied(self, copy: Callable[[Session, PlanCache], bool], what: str) -> None:
-        if copy(self.session, self.plans):
+    def _tell_copied(self, copy: Callable[[Session, SpanPreview], bool], what: str) -> None:
+        if copy(self.session, self.preview):
             self.window.tell(f"Frame {self.session.frame} is on the clipboard as {what}.", "info")
 
     def _insert_runs(self):

@@ -8,13 +8,13 @@ from app.export.svg import frame_svg
 from app.painting import render_frame
 from app.session import Session
 from core.errors import InkbetweenError
-from core.model.motion import PlanCache, pictures_at
+from core.model.motion import HasMotions, pictures_at
 
 SVG = "image/svg+xml"
 PNG = "image/png"
 
 
-def copy_picture(session: Session, plans: PlanCache) -> bool:
+def copy_picture(session: Session, plans: HasMotions) -> bool:
     """Copy the frame as large as the stage, transparent where the stage is; whether that worked."""
     document = session.document
     size = QSize(document.stage.width, document.stage.height)
@@ -30,7 +30,7 @@ def copy_picture(session: Session, plans: PlanCache) -> bool:
     return True
 
 
-def copy_svg(session: Session, plans: PlanCache) -> bool:
+def copy_svg(session: Session, plans: HasMotions) -> bool:
     """Copy the frame as SVG, for drawing programs and as text; whether that worked."""
     document = session.document
     stage = document.stage
