@@ -168,6 +168,7 @@ QToolButton:checked {{ background: {t.accent}; color: {t.accent_text}; border-co
 QToolButton:disabled, QCheckBox:disabled {{ color: {t.muted}; }}
 QToolButton:checked:disabled {{ background: {t.line}; border-color: {t.line}; }}
 QToolButton:focus, QPushButton:focus {{ border-color: {t.accent}; }}
+QToolButton[arrow="true"] {{ border: none; padding: 0; color: {t.muted}; font-size: 11px; }}
 QToolButton[segment="true"] {{ padding: 5px 6px; min-height: 18px; }}
 QToolButton[picture="true"] {{ background: {t.raised}; border-color: {t.line}; color: {t.muted};
     font-size: 10px; padding: 2px; }}

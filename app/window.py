@@ -18,12 +18,14 @@ from PySide6.QtWidgets import (
 
 from app.actions import ACTIONS, MENUS, ActionTable
 from app.canvas.canvas import Canvas
+from app.foldings import remember_foldings
 from app.panels.alternatives import AlternativesPanel
 from app.panels.certificate import CertificatePanel
 from app.panels.drawing import DrawingPanel
 from app.panels.easing import EasingPanel
+from app.panels.layer import LayerPanel
 from app.panels.messagebar import Choice, MessageBar
-from app.panels.parts import separator
+from app.panels.parts import Section, separator
 from app.panels.reference import ReferencePanel
 from app.panels.span import SpanPanel
 from app.panels.timeline import Timeline, action_button
@@ -80,6 +82,7 @@ class Window(QMainWindow):
         self.certificate_panel = CertificatePanel(session, certificates, theme)
         self.certificate_panel.problemChosen.connect(self.canvas.mark)
         self.drawing_panel = DrawingPanel(session, theme, *self._tolerance())
+        self.layer_panel = LayerPanel(session, theme)
         self.reference_panel = ReferencePanel(session)
         self.setCentralWidget(self._central())
         self.message_bar = MessageBar(self.canvas, theme)
@@ -141,11 +144,13 @@ class Window(QMainWindow):
         column = QVBoxLayout(inner)
         column.setContentsMargins(0, 4, 0, 12)
         column.setSpacing(4)
-        for panel in (self.span_panel, self.easing_panel, self.certificate_panel, self.drawing_panel):
+        panels = self.span_panel, self.easing_panel, self.certificate_panel, self.drawing_panel, self.layer_panel
+        for panel in panels:
             column.addWidget(panel)
             column.addWidget(separator())
         column.addWidget(self.reference_panel)
         column.addStretch(1)
+        remember_foldings(inner.findChildren(Section), self.settings)
         scroll = QScrollArea()
         scroll.setWidgetResizable(True)
         scroll.setFrameShape(QFrame.Shape.NoFrame)
@@ -234,7 +239,7 @@ class Window(QMainWindow):
         self.setStyleSheet(style_sheet(theme))
         self.table.set_theme(theme)
         panels = (self.alternatives_panel, self.easing_panel, self.certificate_panel, self.drawing_panel)
-        for part in (self.canvas, self.timeline, *panels, self.message_bar):
+        for part in (self.canvas, self.timeline, *panels, self.layer_panel, self.message_bar):
             part.set_theme(theme)
 
     def closeEvent(self, event: QCloseEvent) -> None:
