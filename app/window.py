@@ -27,6 +27,7 @@ from app.panels.layer import LayerPanel
 from app.panels.messagebar import Choice, MessageBar
 from app.panels.parts import Section, separator
 from app.panels.reference import ReferencePanel
+from app.panels.sheet import SheetPanel
 from app.panels.span import SpanPanel
 from app.panels.timeline import Timeline, action_button
 from app.playback import Playback
@@ -45,6 +46,7 @@ from app.view import ViewState
 
 SIDE_WIDTH = 312
 TOOLBOX_WIDTH = 52
+SHEET_WIDTH = 260
 
 
 class Window(QMainWindow):
@@ -84,6 +86,7 @@ class Window(QMainWindow):
         self.drawing_panel = DrawingPanel(session, theme, *self._tolerance())
         self.layer_panel = LayerPanel(session, theme)
         self.reference_panel = ReferencePanel(session)
+        self.sheet = SheetPanel(session, theme, self.table.actions)
         self.setCentralWidget(self._central())
         self.message_bar = MessageBar(self.canvas, theme)
         self._make_status_bar()
@@ -108,9 +111,22 @@ class Window(QMainWindow):
         self.split.setStretchFactor(0, 1)
         self.split.setSizes([660, 190])
         row.addWidget(self._toolbox())
-        row.addWidget(self.split, 1)
+        row.addWidget(self._beside_sheet(), 1)
         row.addWidget(self._side())
         return central
+
+    def _beside_sheet(self) -> QWidget:
+        """Canvas and timeline, with the exposure sheet to the right when it is open."""
+        across = QSplitter(Qt.Orientation.Horizontal)
+        across.setHandleWidth(1)
+        across.setChildrenCollapsible(False)
+        across.addWidget(self.split)
+        across.addWidget(self.sheet)
+        across.setStretchFactor(0, 1)
+        across.setSizes([800, SHEET_WIDTH])
+        self.sheet.setVisible(self.view_state.options.sheet)
+        self.view_state.changed.connect(lambda: self.sheet.setVisible(self.view_state.options.sheet))
+        return across
 
     def _toolbox(self) -> QWidget:
         box = QWidget()
@@ -239,7 +255,7 @@ class Window(QMainWindow):
         self.setStyleSheet(style_sheet(theme))
         self.table.set_theme(theme)
         panels = (self.alternatives_panel, self.easing_panel, self.certificate_panel, self.drawing_panel)
-        for part in (self.canvas, self.timeline, *panels, self.layer_panel, self.message_bar):
+        for part in (self.canvas, self.timeline, *panels, self.layer_panel, self.sheet, self.message_bar):
             part.set_theme(theme)
 
     def closeEvent(self, event: QCloseEvent) -> None:

@@ -94,7 +94,7 @@ class EasingPanel(Section):
         self.smooth = (QCheckBox(), QCheckBox())
         for i, box in enumerate(self.smooth):
             box.clicked.connect(lambda on, i=i: self._on_smooth(i, on))
-        self.add_row("smooth at", *self.smooth)
+        self.add_row("smooth through", *self.smooth)
 
     def _connect_views(self) -> None:
         plot, chart = self.plot, self.chart
@@ -163,7 +163,8 @@ class EasingPanel(Section):
         for box, keyframe in zip(self.smooth, (before, after), strict=True):
             inside = keyframe is not None and keyframe.frame in frames[1:-1]
             box.setEnabled(inside)
-            box.setText(f"keyframe {keyframe.frame}" if keyframe is not None else "keyframe")
+            box.setText(str(keyframe.frame) if keyframe is not None else "–")
+            box.setAccessibleName(f"Smooth through keyframe {box.text()}")
             box.setChecked(keyframe is not None and keyframe.smooth)
             tip = (
                 SMOOTH_TIP.format(keyframe.frame) if inside else "Only between two spans is there a way to smooth"
