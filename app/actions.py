@@ -1,12 +1,6 @@
 """The table of actions: what every menu entry and button is called, its keys and its icon. No logic is here."""
 
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-
-from PySide6.QtCore import QObject, Qt
-from PySide6.QtGui import QAction, QActionGroup, QKeySequence
-
-from app.theme import Theme, icon
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +45,9 @@ ACTIONS: tuple[ActionSpec, ...] = (
     _line("File"),
     ActionSpec("file.save", "File", "Save", ("Ctrl+S",), "save"),
     ActionSpec("file.save_as", "File", "Save As…", ("Ctrl+Shift+S",)),
+    ActionSpec("file.revert", "File", "Revert to Saved", tip="Take what is in the file; undo takes it back"),
+    ActionSpec("file.backup", "File", "Restore Backup", tip="Take the version before the last save"),
+    ActionSpec("file.recover", "File", "Recover Unsaved Work…", tip="What was not saved when Inkbetween ended"),
     _line("File"),
     ActionSpec("file.stage", "File", "Stage…", (), "settings", tip="Size and colour of the paper"),
     ActionSpec(
@@ -67,7 +64,21 @@ ACTIONS: tuple[ActionSpec, ...] = (
         ("Ctrl+Shift+I",),
         tip="Add an SVG drawing as new layers, one for each style, with a keyframe at the playhead",
     ),
-    ActionSpec("file.export", "File", "Export Frames…", ("Ctrl+E",), "export"),
+    ActionSpec(
+        "file.import_folder",
+        "File",
+        "Import Folder of SVG…",
+        (),
+        tip="Add a layer whose keyframes are the SVG drawings of a folder, in the order of their names",
+    ),
+    ActionSpec(
+        "file.import_lottie",
+        "File",
+        "Import Lottie…",
+        (),
+        tip="Add the shape layers of a Lottie animation with their keyframes",
+    ),
+    ActionSpec("file.export", "File", "Export…", ("Ctrl+E",), "export"),
     _line("File"),
     ActionSpec("file.close", "File", "Close", ("Ctrl+W",)),
     ActionSpec("file.quit", "File", "Quit", ("Ctrl+Q",)),
@@ -76,6 +87,20 @@ ACTIONS: tuple[ActionSpec, ...] = (
     _line("Edit"),
     ActionSpec("edit.cut", "Edit", "Cut", ("Ctrl+X",)),
     ActionSpec("edit.copy", "Edit", "Copy", ("Ctrl+C",), "copy"),
+    ActionSpec(
+        "edit.copy_picture",
+        "Edit",
+        "Copy Frame as Picture",
+        ("Ctrl+Shift+C",),
+        tip="Copy what is shown at the playhead for other programs, as large as the stage",
+    ),
+    ActionSpec(
+        "edit.copy_svg",
+        "Edit",
+        "Copy Frame as SVG",
+        ("Ctrl+Alt+C",),
+        tip="Copy what is shown at the playhead as shapes for a drawing program",
+    ),
     ActionSpec("edit.paste", "Edit", "Paste", ("Ctrl+V",)),
     ActionSpec("edit.delete", "Edit", "Delete", ("Delete",), "delete", tip="Take away what is selected"),
     _line("Edit"),
@@ -114,7 +139,7 @@ ACTIONS: tuple[ActionSpec, ...] = (
         "Stretch Heat Map",
         ("Shift+H",),
         checkable=True,
-        tip="Colour the in-between where it is longer or shorter than its keyframes",
+        tip="Colour the in-between where it is longer or shorter than its keyframes, inside and outline",
     ),
     ActionSpec(
         "view.paths",
@@ -124,10 +149,19 @@ ACTIONS: tuple[ActionSpec, ...] = (
         tip="The ways of some vertices through the span, with a dot a frame",
     ),
     ActionSpec(
+        "view.sheet",
+        "View",
+        "Exposure Sheet",
+        ("X", "Ctrl+Shift+X"),
+        checkable=True,
+        tip="The film as a table of frames and layers, in which drawings are held, moved and taken out",
+    ),
+    ActionSpec(
         "view.final", "View", "Final Look", ("F9",), "visible", checkable=True, tip="As exported, without helpers"
     ),
     _line("View"),
     ActionSpec("view.fit", "View", "Fit Stage", ("F",), "fit"),
+    ActionSpec("view.fit_film", "View", "Fit Film in Timeline", ("Shift+F",)),
     ActionSpec("view.zoom_in", "View", "Zoom In", ("Ctrl++", "Ctrl+=")),
     ActionSpec("view.zoom_out", "View", "Zoom Out", ("Ctrl+-",)),
     ActionSpec("view.actual", "View", "Actual Size", ("Ctrl+0",)),
@@ -157,7 +191,58 @@ ACTIONS: tuple[ActionSpec, ...] = (
         tip="Put a copy of the drawing into the other keyframe of the span, or on the last frame if there is none",
     ),
     ActionSpec(
-        "key.delete", "Draw", "Delete Keyframe", ("Shift+F6",), tip="Take away the keyframe at the playhead"
+        "key.delete",
+        "Draw",
+        "Delete Keyframe",
+        ("Shift+F6",),
+        tip="Take away the selected keyframes, else the one at the playhead",
+    ),
+    _line("Draw"),
+    ActionSpec(
+        "key.duplicate",
+        "Draw",
+        "Duplicate Keyframes",
+        tip="Put copies behind the selected keyframes",
+    ),
+    ActionSpec(
+        "key.hold",
+        "Draw",
+        "Hold Until Next Keyframe",
+        checkable=True,
+        tip="No in-betweens: the drawing stays until the next keyframe",
+    ),
+    ActionSpec(
+        "key.smooth",
+        "Draw",
+        "Smooth Through Keyframe",
+        checkable=True,
+        tip="The motion goes through the keyframe without a jump in its velocity",
+    ),
+    _line("Draw"),
+    ActionSpec(
+        "frame.insert", "Draw", "Insert Frame", ("F5",), tip="In this layer: what is shown is held a frame longer"
+    ),
+    ActionSpec(
+        "frame.remove", "Draw", "Remove Frame", ("Shift+F5",), tip="In this layer: what is behind comes earlier"
+    ),
+    ActionSpec("frame.insert_all", "Draw", "Insert Frame in All Layers", ("Ctrl+F5",)),
+    ActionSpec("frame.remove_all", "Draw", "Remove Frame from All Layers", ("Ctrl+Shift+F5",)),
+    ActionSpec("layer.add", "Layer", "Add Layer", ("Ctrl+Shift+N",), "add", tip="Add a layer in front"),
+    ActionSpec("layer.rename", "Layer", "Rename Layer"),
+    ActionSpec("layer.duplicate", "Layer", "Duplicate Layer"),
+    ActionSpec("layer.delete", "Layer", "Delete Layer"),
+    _line("Layer"),
+    ActionSpec("layer.show", "Layer", "Show Layer", checkable=True),
+    ActionSpec("layer.lock", "Layer", "Lock Layer", checkable=True, tip="The layer is seen, but not changed"),
+    ActionSpec("layer.solo", "Layer", "Solo Layer", checkable=True, tip="Show this layer alone"),
+    ActionSpec(
+        "key.smooth_layer",
+        "Draw",
+        "Smooth Layer",
+        tip="Let the motion go through all keyframes of the layer without a jump in its velocity",
+    ),
+    ActionSpec(
+        "key.sharp_layer", "Draw", "Sharp Layer", tip="Let every span of the layer start and end on its own"
     ),
     ActionSpec(
         "insert.letters",
@@ -177,6 +262,14 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("span.intrinsic", "Span", "Intrinsic", (), "", checkable=True, group="method"),
     ActionSpec("span.rigid", "Span", "Rigid", (), "", checkable=True, group="method"),
     ActionSpec("span.auto", "Span", "Auto", (), "", checkable=True, group="method"),
+    ActionSpec(
+        "span.other_way",
+        "Span",
+        "Turn the Other Way Round",
+        (),
+        "",
+        tip="Go round the other side, left in place of right; again: back. Not for linear",
+    ),
     _line("Span"),
     ActionSpec("span.clear", "Span", "Clear Anchors"),
     ActionSpec("span.clear_pins", "Span", "Clear Pins"),
@@ -199,90 +292,26 @@ ACTIONS: tuple[ActionSpec, ...] = (
     _line("Span"),
     ActionSpec("play.toggle", "Span", "Play", ("Space",), "play"),
     ActionSpec("play.loop", "Span", "Loop", (), "loop", checkable=True),
+    ActionSpec("play.ping_pong", "Span", "Ping-Pong", (), "ping-pong", checkable=True, tip="Play forth and back"),
+    ActionSpec("play.range_from", "Span", "Play from This Frame"),
+    ActionSpec("play.range_to", "Span", "Play to This Frame"),
+    ActionSpec("play.no_range", "Span", "Play the Whole Film"),
+    _line("Span"),
     ActionSpec("play.previous", "Span", "Previous Frame", (",", "Left"), "previous"),
     ActionSpec("play.next", "Span", "Next Frame", (".", "Right"), "next"),
     ActionSpec("play.previous_key", "Span", "Previous Keyframe", ("Ctrl+,",)),
     ActionSpec("play.next_key", "Span", "Next Keyframe", ("Ctrl+.",)),
     ActionSpec("play.first", "Span", "First Frame", ("Home",), "first"),
     ActionSpec("play.last", "Span", "Last Frame", ("End",), "last"),
+    _line("Span"),
+    ActionSpec(
+        "flip.previous", "Span", "Flip to Previous Drawing", ("A",), tip="Shown as long as the key is held"
+    ),
+    ActionSpec("flip.next", "Span", "Flip to Next Drawing", ("D",), tip="Shown as long as the key is held"),
     ActionSpec("help.find", "Help", "Find Command…", ("Ctrl+K",), tip="Run any command by a part of its name"),
     ActionSpec("help.keys", "Help", "Keys and Mouse", ("F1",), tip="Show every key over the window"),
     ActionSpec("help.tour", "Help", "Tour", tip="Draw, correspond, scrub and export in a minute"),
     _line("Help"),
     ActionSpec("help.about", "Help", "About Inkbetween"),
 )
-MENUS = ("File", "Edit", "View", "Draw", "Insert", "Span", "Samples", "Help")
-
-
-class ActionTable(QObject):
-    """The QActions of the table, by id."""
-
-    def __init__(self, theme: Theme, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self.actions: dict[str, QAction] = {}
-        self._specs = {spec.id: spec for spec in ACTIONS if spec.id}
-        self._keys: dict[str, tuple[str, ...]] = {spec.id: spec.keys for spec in self._specs.values()}
-        self._groups: dict[str, QActionGroup] = {}
-        for spec in self._specs.values():
-            self.actions[spec.id] = self._made(spec)
-            self._show_keys(spec.id)
-        self.set_theme(theme)
-
-    def _made(self, spec: ActionSpec) -> QAction:
-        action = QAction(spec.text, self)
-        action.setObjectName(spec.id)
-        action.setShortcutContext(Qt.ShortcutContext.WindowShortcut)
-        action.setCheckable(spec.checkable)
-        action.setStatusTip("")
-        if spec.group:
-            group = self._groups.setdefault(spec.group, QActionGroup(self))
-            group.addAction(action)
-        return action
-
-    def _show_keys(self, name: str) -> None:
-        """Give an action its keys, and its tooltip the first of them."""
-        action, spec = self.actions[name], self._specs[name]
-        action.setShortcuts([QKeySequence(k) for k in self._keys[name]])
-        tip = spec.tip or action.text().rstrip("…")
-        action.setToolTip(f"{tip} ({self.key_of(name)})" if self._keys[name] else tip)
-
-    def set_keys(self, keys: Mapping[str, tuple[str, ...]]) -> None:
-        """Give actions other keys."""
-        for name in keys.keys() & self.actions.keys():
-            if self._keys[name] != keys[name]:
-                self._keys[name] = keys[name]
-                self._show_keys(name)
-
-    def keys_of(self, name: str) -> tuple[str, ...]:
-        """Return the keys of an action as they are now."""
-        return self._keys[name]
-
-    def key_of(self, name: str) -> str:
-        """Return the first key of an action; "" if it has none."""
-        return self._keys[name][0] if self._keys[name] else ""
-
-    def set_text(self, name: str, text: str) -> None:
-        """Call an action otherwise, as Play is called Pause while the film runs."""
-        if self.actions[name].text() != text:
-            self.actions[name].setText(text)
-            self._show_keys(name)
-
-    def spec(self, name: str) -> ActionSpec:
-        """Return an action's row of the table."""
-        return self._specs[name]
-
-    def set_theme(self, theme: Theme) -> None:
-        for spec in self._specs.values():
-            if spec.icon:
-                self.actions[spec.id].setIcon(icon(spec.icon, theme))
-                self.actions[spec.id].setIconVisibleInMenu(False)
-
-    def connect_all(self, runs: dict[str, Callable[[], object]]) -> None:
-        """Give every action what it runs; a missing or surplus one is a mistake in the program."""
-        if runs.keys() != self.actions.keys() - {"file.recent"}:
-            raise KeyError(f"actions and functions differ: {sorted(runs.keys() ^ self.actions.keys())}")
-        for name, run in runs.items():
-            self.actions[name].triggered.connect(lambda _=False, run=run: run())
-
-    def __getitem__(self, name: str) -> QAction:
-        return self.actions[name]
+MENUS = ("File", "Edit", "View", "Draw", "Insert", "Layer", "Span", "Samples", "Help")

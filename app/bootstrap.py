@@ -1,38 +1,44 @@
 """The one place that builds everything and connects it."""
 
-import signal
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QObject, QSize, Qt, QTimer
+from PySide6.QtCore import QObject, QSize, Qt
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QIcon
-from PySide6.QtWidgets import QApplication, QMenu
+from PySide6.QtWidgets import QApplication
 
 import resources
-from app import editing, matching
+from app import copying, editing, matching
 from app.canvas.reference import current_reference
 from app.dialogs.export import ExportDialog
 from app.dialogs.help import show_about
 from app.dialogs.stage import StageDialog
 from app.editing import Clipboard
 from app.files import Files
+from app.film import Film
 from app.guidance import Guidance
 from app.incoming import Incoming
+from app.menus import fill_recent, fill_samples
 from app.playback import Playback
 from app.preview.alternatives import AlternativesPreview
 from app.preview.certificates import CertificatePreview
+from app.preview.prefetch import Prefetch
 from app.preview.spans import SpanPreview
+from app.recovery import state_folder
+from app.safekeeping import Safekeeping
 from app.session import Selection, Session
 from app.settings import Settings
 from app.theme import icon, palette, system_theme
 from app.view import LINES, ViewState
 from app.window import Window
 from core.model.edits import clear_anchors, clear_pins, set_stage, solve_again
-from core.model.motion import PlanCache
+from core.model.motion import HasMotions
 
 ARRANGEMENT_ACTIONS = {"overlaid": "view.overlaid", "side by side": "view.side", "compare": "view.compare"}
 THEME_ACTIONS = {"system": "view.theme_system", "light": "view.theme_light", "dark": "view.theme_dark"}
 SPAN_ACTIONS = (
+    "span.other_way",
     "span.clear",
     "span.clear_pins",
     "span.again",
@@ -41,40 +47,39 @@ SPAN_ACTIONS = (
     "span.shift_back",
     "view.compare",
 )
-METHOD_ACTIONS = {
-    "linear": "span.linear",
-    "intrinsic": "span.intrinsic",
-    "rigid": "span.rigid",
-    "auto": "span.auto",
-}
+METHOD_ACTIONS = {method: f"span.{method}" for method in ("linear", "intrinsic", "rigid", "auto")}
 
 
 class Editor(QObject):
     """Everything of one open window."""
 
-    def __init__(self, settings: Settings | None = None) -> None:
+    def __init__(self, settings: Settings | None = None, state: Path | None = None) -> None:
+        """`state` is the folder for unsaved work; without one none is kept."""
         super().__init__()
         self.settings = settings or Settings()
         self.session = Session(self)
         self.preview = SpanPreview(self)
         self.view_state = ViewState(self.settings, self)
         self.playback = Playback(self.session, self)
+        self.film = Film(self.session, self.playback, self)
         self.clipboard = Clipboard()
-        self.plans = PlanCache()
         theme = system_theme(self.settings.text("theme", "system"))
         self.ranked = AlternativesPreview(self.preview, self)
         self.certificates = CertificatePreview(self.session, self.preview, self)
+        self.prefetch = Prefetch(self.session, self.preview, self)
         self.window = Window(
             self.session,
             self.preview,
             self.ranked,
             self.certificates,
+            self.film.keys,
             self.view_state,
             self.playback,
             self.settings,
             theme,
         )
         self.files = Files(self.window, self.session, self.settings, self.preview.with_answers, self.window.tell)
+        self.safekeeping = Safekeeping(self.window, self.session, self.files, state)
         self.incoming = Incoming(self.window, self.session, self.settings)
         self.guidance = Guidance(self.window, self.files, self.settings, self)
         self.export_dialog: ExportDialog | None = None
@@ -83,13 +88,13 @@ class Editor(QObject):
         self.set_theme(self.settings.text("theme", "system"))
         self.window.choose_tool("tool.select")
         self._refresh()
-        self._make_samples_menu()
+        fill_samples(self.window.menus["Samples"], self.files.open_sample)
         self._restore_geometry()
 
     # actions
 
     def _runs(self):
-        return (
+        runs = (
             self._file_runs()
             | self._edit_runs()
             | self._insert_runs()
@@ -98,6 +103,7 @@ class Editor(QObject):
             | self._key_runs()
             | self.guidance.runs
         )
+        return self.film.runs(runs, self.window.timeline.track)
 
     def _file_runs(self):
         files, window = self.files, self.window
@@ -106,10 +112,15 @@ class Editor(QObject):
             "file.open": files.open,
             "file.save": files.save,
             "file.save_as": files.save_as,
+            "file.revert": files.reload,
+            "file.backup": files.restore_backup,
+            "file.recover": lambda: self.safekeeping.offer(asked=True),
             "file.stage": self.edit_stage,
             "file.import": self.incoming.import_svg,
             "file.import_layers": lambda: self.incoming.import_svg(as_layers=True),
-            "file.export": self.export_frames,
+            "file.import_folder": self.incoming.import_folder,
+            "file.import_lottie": self.incoming.import_lottie,
+            "file.export": self.export,
             "file.close": files.new,
             "file.quit": self.window.close,
             "help.about": lambda: show_about(window),
@@ -122,11 +133,17 @@ class Editor(QObject):
             "edit.redo": session.undo_stack.redo,
             "edit.cut": lambda: editing.cut(session, clipboard),
             "edit.copy": lambda: editing.copy(session, clipboard),
+            "edit.copy_picture": lambda: self._tell_copied(copying.copy_picture, "picture"),
+            "edit.copy_svg": lambda: self._tell_copied(copying.copy_svg, "SVG"),
             "edit.paste": lambda: editing.paste(session, clipboard),
             "edit.delete": lambda: editing.delete(session),
             "edit.select_all": lambda: editing.select_all(session),
             "edit.select_none": lambda: session.select(Selection()),
         }
+
+    def _tell_copied(self, copy: Callable[[Session, HasMotions], bool], what: str) -> None:
+        if copy(self.session, self.preview):
+            self.window.tell(f"Frame {self.session.frame} is on the clipboard as {what}.", "info")
 
     def _insert_runs(self):
         return {
@@ -143,6 +160,7 @@ class Editor(QObject):
             "view.hues": lambda: view.set(hues=not view.options.hues),
             "view.heat": lambda: view.set(heat=not view.options.heat),
             "view.paths": lambda: view.set(paths=not view.options.paths),
+            "view.sheet": lambda: view.set(sheet=not view.options.sheet),
             "view.final": lambda: view.set(final=not view.options.final),
             "view.fit": canvas.fit,
             "view.zoom_in": lambda: canvas.zoom(1.25),
@@ -156,12 +174,15 @@ class Editor(QObject):
     def _key_runs(self):
         session, playback = self.session, self.playback
         runs = {
-            "key.add": lambda: editing.add_keyframe(session, self.plans),
+            "key.add": lambda: editing.add_keyframe(session, self.preview.motions),
             "key.copy": lambda: editing.copy_to_other_keyframe(session),
             "key.delete": lambda: editing.delete_current_keyframe(session),
-            "span.clear": self._clear_anchors,
-            "span.clear_pins": self._clear_pins,
-            "span.again": self._solve_again,
+            "key.smooth_layer": lambda: editing.set_layer_smooth(session, True),
+            "key.sharp_layer": lambda: editing.set_layer_smooth(session, False),
+            "span.other_way": lambda: matching.turn_other_way(session, self.preview),
+            "span.clear": lambda: self._in_span("Clear Anchors", clear_anchors),
+            "span.clear_pins": lambda: self._in_span("Clear Pins", clear_pins),
+            "span.again": lambda: self._in_span("Solve Again", solve_again),
             "span.flip": lambda: matching.flip(session, self.preview),
             "span.shift_on": lambda: matching.shift(session, self.preview, 1),
             "span.shift_back": lambda: matching.shift(session, self.preview, -1),
@@ -185,20 +206,10 @@ class Editor(QObject):
         now = LINES.index(self.view_state.options.lines)
         self.view_state.set(lines=LINES[(now + 1) % len(LINES)])
 
-    def _clear_anchors(self) -> None:
+    def _in_span(self, label: str, edit) -> None:
         before, after = self.session.span_keyframes()
         if before is not None and after is not None:
-            self.session.apply("Clear Anchors", clear_anchors, self.session.layer.id, before.frame)
-
-    def _clear_pins(self) -> None:
-        before, after = self.session.span_keyframes()
-        if before is not None and after is not None:
-            self.session.apply("Clear Pins", clear_pins, self.session.layer.id, before.frame)
-
-    def _solve_again(self) -> None:
-        before, after = self.session.span_keyframes()
-        if before is not None and after is not None:
-            self.session.apply("Solve Again", solve_again, self.session.layer.id, before.frame)
+            self.session.apply(label, edit, self.session.layer.id, before.frame)
 
     # connections
 
@@ -208,21 +219,32 @@ class Editor(QObject):
         session.documentChanged.connect(self._on_document_changed)
         for signal_ in (session.frameChanged, session.layerChanged):
             signal_.connect(self._refresh)
-        for signal_ in (session.selectionChanged, session.gestureChanged, self.view_state.changed):
+        for signal_ in (
+            session.selectionChanged,
+            session.gestureChanged,
+            session.problem,
+            self.view_state.changed,
+        ):
             signal_.connect(self._refresh)
         session.fileChanged.connect(window.show_title)
         session.fileChanged.connect(self._on_file_changed)
         session.undo_stack.indexChanged.connect(self._refresh)
+        self.film.changed.connect(self._refresh)
         self.playback.changed.connect(self._refresh)
         window.canvas.playPressed.connect(self.playback.toggle)
-        window.timeline.track.menuWanted.connect(self._show_key_menu)
+        methods = {action: method for method, action in METHOD_ACTIONS.items()}
+        matching.try_methods_in(window.menus["Span"], methods, session, self.preview)
         window.closeAsked.connect(self._on_close_asked)
         window.fileDropped.connect(lambda name: self.incoming.take(Path(name), self.files.open_path))
         window.canvas.references.unreadable.connect(session.problem, Qt.ConnectionType.QueuedConnection)
-        window.menus["File"].aboutToShow.connect(self._fill_recent)
+        window.menus["File"].aboutToShow.connect(
+            lambda: fill_recent(window.recent_menu, self.settings, self.files.open_path)
+        )
+        QGuiApplication.instance().applicationStateChanged.connect(self._on_application_state)
         hints = QGuiApplication.styleHints()
         hints.colorSchemeChanged.connect(self._on_color_scheme)
         window.show_title()
+        self._on_file_changed()
 
     def _on_document_changed(self) -> None:
         if not self.session.in_gesture:  # at every step of a drag the menus can wait for its end
@@ -249,9 +271,11 @@ class Editor(QObject):
         table["view.hues"].setChecked(options.hues)
         table["view.heat"].setChecked(options.heat)
         table["view.paths"].setChecked(options.paths)
+        table["view.sheet"].setChecked(options.sheet)
         table["view.final"].setChecked(options.final)
         table[ARRANGEMENT_ACTIONS[options.arrangement]].setChecked(True)
         self._show_playing()
+        self.film.show_in(table)
 
     def _show_playing(self) -> None:
         table, playing = self.window.table, self.playback.playing
@@ -261,7 +285,16 @@ class Editor(QObject):
             table["play.toggle"].setIcon(icon(text.lower(), self.window.theme))
         table["play.loop"].setChecked(self.playback.loop)
 
+    def _on_application_state(self, state: Qt.ApplicationState) -> None:
+        if (
+            state == Qt.ApplicationState.ApplicationActive
+        ):  # whoever comes back may have changed the file meanwhile
+            self.files.look()
+
     def _on_file_changed(self) -> None:
+        path = self.session.path
+        self.window.table["file.revert"].setEnabled(path is not None and self.session.is_modified)
+        self.window.table["file.backup"].setEnabled(path is not None)
         if self.session.undo_stack.count() == 0:
             self.playback.stop()
 
@@ -280,36 +313,6 @@ class Editor(QObject):
         self.window.set_theme(theme)
         self._refresh()
 
-    # menus
-
-    def _make_samples_menu(self) -> None:
-        for path in resources.samples():
-            action = self.window.menus["Samples"].addAction(path.stem.capitalize())
-            action.triggered.connect(lambda _=False, p=path: self.files.open_sample(p))
-
-    def _fill_recent(self) -> None:
-        menu = self.window.recent_menu
-        menu.clear()
-        recent = self.settings.recent_files()
-        for path in recent:
-            action = menu.addAction(path.name)
-            action.setToolTip(str(path))
-            action.triggered.connect(lambda _=False, p=path: self.files.open_path(p))
-        menu.setEnabled(bool(recent))
-        if recent:
-            menu.addSeparator()
-            menu.addAction("Forget These").triggered.connect(self.settings.clear_recent)
-
-    def _show_key_menu(self, frame: int, place: object) -> None:
-        menu = QMenu(self.window)
-        for name in ("key.add", "key.copy", "key.delete"):
-            menu.addAction(self.window.table[name])
-        menu.addSeparator()
-        for name in ("edit.copy", "edit.paste"):
-            menu.addAction(self.window.table[name])
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        menu.popup(place)
-
     # dialogs
 
     def edit_stage(self) -> None:
@@ -317,14 +320,14 @@ class Editor(QObject):
         if dialog.exec():
             self.session.apply("Change Stage", set_stage, dialog.stage)
 
-    def export_frames(self) -> None:
+    def export(self) -> None:
         """Open the export dialog, or bring the one at work to the front."""
-        if self.export_dialog is not None and self.export_dialog.job is not None:
-            self.export_dialog.raise_()
+        if self.export_dialog is not None:
+            self.export_dialog.activateWindow()
             return
         folder = self.session.path.parent if self.session.path else Path.home()
         name = self.session.name
-        dialog = ExportDialog(self.session.document, name, folder / f"{name} frames", self.window)
+        dialog = ExportDialog(lambda: self.session.document, name, folder, self.settings, self.window)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.told.connect(self.window.tell)
         dialog.told.connect(self.guidance.note_told)
@@ -348,13 +351,18 @@ class Editor(QObject):
             self.window.resize(self.window.size().boundedTo(room - QSize(40, 80)))
 
     def _on_close_asked(self, event: QCloseEvent) -> None:
+        if self.files.writing:
+            self.files.then(self.window.close)
         if not self.files.may_leave():
             event.ignore()
             return
         if self.export_dialog is not None:
             self.export_dialog.close()
         self.incoming.stop()
+        self.safekeeping.stop()
+        self.files.stop()
         self.playback.stop()
+        self.prefetch.stop()
         self.preview.stop()
         self.ranked.stop()
         self.certificates.stop()
@@ -378,16 +386,14 @@ def make_application() -> QApplication:
 def run(path: str | None = None, *, sample: bool = False) -> int:
     """Open the editor on a file, or on an empty document, and return its exit code when it is closed."""
     app = make_application()
-    editor = Editor()
-    if path is not None:
-        if sample:
-            editor.files.open_sample(Path(path))
-        else:
-            editor.files.open_path(Path(path))
+    state = state_folder()
+    editor = Editor(state=state)
     editor.window.show()
-    editor.guidance.tour.offer()
-    signal.signal(signal.SIGINT, lambda *_: editor.window.close())
-    beat = QTimer()  # Python sees Ctrl+C only when it runs now and then
-    beat.start(200)
-    beat.timeout.connect(lambda: None)
-    return app.exec()
+    with editor.safekeeping.watching(app, state):
+        if path is not None:
+            if sample:
+                editor.files.open_sample(Path(path))
+            else:
+                editor.files.open_path(Path(path))
+        editor.guidance.tour.offer()
+        return app.exec()

@@ -1,18 +1,16 @@
 """What the edit and draw menus do: functions on the session."""
 
-from dataclasses import dataclass
-
-import numpy as np
+from dataclasses import dataclass, replace
 
 from app.session import OutlineRef, Selection, Session
 from app.tools.correspond import delete_selected_anchor
 from app.tools.pin import delete_selected_pin
 from app.tools.select import delete_selected_vertices, outline_of
-from core.geometry.outline import size
+from core.model.breakdowns import add_breakdown
 from core.model.document import Document, Keyframe
 from core.model.drawing import Drawing, Outline
-from core.model.edits import add_outline, delete_keyframe, delete_vertices, put_drawing, set_span
-from core.model.motion import PlanCache, picture_at
+from core.model.edits import add_outline, delete_keyframe, delete_vertices, put_drawing, set_smooth, set_span
+from core.model.motion import Motions
 
 PASTE_SHIFT = 12.0
 
@@ -96,31 +94,34 @@ def select_all(session: Session) -> None:
         )
 
 
-def add_keyframe(session: Session, plans: PlanCache) -> None:
-    """Make a keyframe of exactly what is shown at the playhead."""
+def add_keyframe(session: Session, motions: Motions) -> None:
+    """Make a keyframe of exactly what is shown at the playhead; in a span it is a breakdown."""
     frame, layer = session.frame, session.layer
     if layer.keyframe_at(frame) is not None:
         session.problem.emit(f"Frame {frame} is a keyframe already; go to another frame first.")
         return
-    drawing = shown_drawing(session, plans)
-    if drawing is None:
+    before, after = session.span_keyframes()
+    if before is not None and after is not None and not before.span.hold:
+        motion = motions.of(session.document, layer, before, after)
+        session.apply("Add Breakdown", add_breakdown, layer.id, frame, motion)
+        return
+    if before is None and after is None:
         session.problem.emit("Nothing is shown here yet: draw with the pen or the pencil.")
         return
-    session.apply("Add Keyframe", put_drawing, layer.id, frame, drawing)
+    session.apply("Add Keyframe", put_drawing, layer.id, frame, held_drawing(session, motions))
 
 
-def shown_drawing(session: Session, plans: PlanCache) -> Drawing | None:
-    """Return what the active layer shows at the playhead as a drawing; before the first keyframe, that one."""
-    picture = picture_at(session.document, session.layer, session.frame, plans)
+def held_drawing(session: Session, motions: Motions) -> Drawing:
+    """Return what is held at the playhead, carried by its parent; before the first keyframe, that one."""
+    before, after = session.span_keyframes()
+    keyframe = before or after
+    assert keyframe is not None
+    picture = motions.picture(session.document, session.layer, session.frame)
     if picture is None:
-        keyframes = session.layer.keyframes
-        return keyframes[0].drawing if keyframes else None
-    outlines = tuple(
-        Outline(i, np.array(points), closed)
-        for i, (points, closed) in enumerate(picture.outlines, start=1)
-        if size(points) > 0
-    )
-    return Drawing(outlines, picture.style)
+        return keyframe.drawing
+    shown = zip(keyframe.drawing.outlines, picture.outlines, strict=True)
+    outlines = tuple(o if points is o.points else replace(o, points=points) for o, (points, _) in shown)
+    return replace(keyframe.drawing, outlines=outlines)
 
 
 def copy_to_other_keyframe(session: Session) -> None:
@@ -174,3 +175,9 @@ def go_to_keyframe(session: Session, step: int) -> None:
     frames = [f for f in session.layer.frames() if (f - session.frame) * step > 0]
     if frames:
         session.go_to(min(frames) if step > 0 else max(frames))
+
+
+def set_layer_smooth(session: Session, smooth: bool) -> None:
+    """Let the motion go through every keyframe of the active layer smoothly, or let all be sharp."""
+    text = "Smooth Layer" if smooth else "Sharp Layer"
+    session.apply(text, set_smooth, session.layer.id, session.layer.frames(), smooth)

@@ -1,4 +1,4 @@
-"""What comes in from elsewhere: SVG files, letters, reference pictures."""
+"""What comes in from elsewhere: SVG files, folders of them, Lottie, letters, reference pictures."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -13,11 +13,13 @@ from app.session import Selection, Session
 from app.settings import Settings
 from app.window import Window
 from core.errors import InkbetweenError
+from core.io.film import ImportedFilm, film_remark, import_film
 from core.io.imported import Imported, fitted, import_keyframe, import_layers, remark
 from core.model.document import Document, Reference
 from core.model.drawing import Drawing
 from core.model.edits import add_outline, put_drawing, set_reference
 
+LOTTIE_FILTER = "Lottie animations (*.json);;All files (*)"
 SVG_FILTER = "SVG drawings (*.svg);;All files (*)"
 PICTURE_FILTER = "Pictures (*.png *.jpg *.jpeg);;All files (*)"
 PICTURE_SUFFIXES = frozenset({".png", ".jpg", ".jpeg"})
@@ -35,7 +37,7 @@ class Incoming(QObject):
     def take(self, path: Path, open_project: Callable[[Path], object]) -> None:
         """Take a file that was dropped on the window, by what it is."""
         suffix = path.suffix.lower()
-        if suffix == ".svg":
+        if suffix in (".svg", ".json") or path.is_dir():
             self.import_path(path)
         elif suffix in PICTURE_SUFFIXES:
             self.lay_reference(path)
@@ -52,10 +54,24 @@ class Incoming(QObject):
             self._settings.keep("import_folder", str(Path(name).resolve().parent))
             self.import_path(Path(name), as_layers=as_layers)
 
+    def import_folder(self) -> None:
+        """Ask for a folder of SVG files and make them the keyframes of a new layer."""
+        name = QFileDialog.getExistingDirectory(self._window, "Import Folder of SVG", self._folder())
+        if name:
+            self._settings.keep("import_folder", str(Path(name).resolve().parent))
+            self.import_path(Path(name))
+
+    def import_lottie(self) -> None:
+        """Ask for a Lottie animation and add its layers."""
+        name, _ = QFileDialog.getOpenFileName(self._window, "Import Lottie", self._folder(), LOTTIE_FILTER)
+        if name:
+            self._settings.keep("import_folder", str(Path(name).resolve().parent))
+            self.import_path(Path(name))
+
     def import_path(self, path: Path, *, as_layers: bool = False) -> None:
         """Read a file beside the window, then put it where the playhead stood when this was asked for."""
         if self.import_dialog is not None:
-            self._session.problem.emit("Another SVG is being read; wait for it, or cancel it.")
+            self._session.problem.emit("Another file is being read; wait for it, or cancel it.")
             return
         place = (self._session.layer.id, self._session.frame)
         self.import_dialog = ImportDialog(path, self._window)
@@ -68,6 +84,8 @@ class Incoming(QObject):
             self._window.tell(str(result), "error")
         elif isinstance(result, Imported):
             self._put(result, path.name, place, as_layers)
+        elif isinstance(result, ImportedFilm):
+            self._put_film(result, path.name, place[1])
         else:
             self._window.tell(f"The import of {path.name} was cancelled.", "info")
 
@@ -91,6 +109,17 @@ class Incoming(QObject):
         what = _counted(made, "layer") if made else f"the keyframe at {frame}, {_counted(outlines, 'outline')}"
         rest = remark(imported, as_one=not as_layers)
         self._window.tell(f"Imported {name} as {what}{'; ' + rest if rest else ''}.", "info")
+
+    def _put_film(self, imported: ImportedFilm, name: str, frame: int) -> None:
+        """Add layers with keyframes, from the playhead on."""
+        session = self._session
+        if not session.apply(f"Import {name}", import_film, imported, frame, selection=Selection()):
+            return
+        session.set_layer(session.document.layers[-1].id)
+        keys = _counted(sum(len(x.keyframes) for x in imported.layers), "keyframe")
+        rest = film_remark(imported)
+        layers = _counted(len(imported.layers), "layer")
+        self._window.tell(f"Imported {name} as {layers} with {keys}{'; ' + rest if rest else ''}.", "info")
 
     # letters
 

@@ -1,12 +1,16 @@
-"""What the span menu does with the correspondence: turn it round, shift its start."""
+"""What the span menu does: the correspondence turned round or shifted, the turn reversed, methods tried out."""
+
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QMenu
 
 from app.preview.spans import SpanPreview
 from app.session import Session
 from core.correspondence.by_hand import reversed_direction, shifted_start
 from core.correspondence.pairing import Correspondence
 from core.errors import InkbetweenError
+from core.methods.plan import other_way
 from core.model.drawing import Outline
-from core.model.edits import choose_correspondence
+from core.model.edits import choose_correspondence, set_span
 
 
 def flip(session: Session, preview: SpanPreview) -> None:
@@ -29,6 +33,30 @@ def shift(session: Session, preview: SpanPreview, steps: int) -> None:
         session.problem.emit(str(e))
         return
     _choose(session, "Shift Start", frame, a, b, moved)
+
+
+def turn_other_way(session: Session, preview: SpanPreview) -> None:
+    """Let the drawing of the span go round the other side."""
+    before, after = session.span_keyframes()
+    if before is None or after is None:
+        return
+    if before.span.method == "linear":
+        session.problem.emit("Linear goes straight and turns no way round: choose another method first.")
+        return
+    turns = other_way(before.span.turns, preview.plan(before, after, session.layer.id).natural_turn)
+    session.apply("Turn the Other Way", set_span, session.layer.id, before.frame, turns=turns)
+
+
+def try_methods_in(menu: QMenu, methods: dict[str, str], session: Session, preview: SpanPreview) -> None:
+    """Show the in-betweens by the method under the pointer in a menu; `methods` are by the name of the action."""
+
+    def hovered(action: QAction) -> None:
+        before, after = session.span_keyframes()
+        method = methods.get(action.objectName(), "")
+        preview.try_method(before if method and after is not None else None, session.layer.id, method)
+
+    menu.hovered.connect(hovered)
+    menu.aboutToHide.connect(lambda: preview.try_method(None))
 
 
 def _main(session: Session, preview: SpanPreview) -> tuple[int, Outline, Outline, Correspondence] | None:

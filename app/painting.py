@@ -7,7 +7,7 @@ tell. So vertices are mapped to device px by numpy first, and thinned there.
 import math
 from collections import OrderedDict
 from collections.abc import Callable, Iterable, Sequence
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -19,8 +19,10 @@ from core.errors import StorageError
 from core.geometry.outline import FloatArray
 from core.model.document import Document, Stage
 from core.model.drawing import Color
-from core.model.inbetweens import Picture
-from core.model.motion import HasMotions, pictures_at
+
+if TYPE_CHECKING:  # solving brings scipy with it; a process that only paints need not wait for that
+    from core.model.inbetweens import Picture
+    from core.model.motion import HasMotions
 
 Outlines = Sequence[tuple[FloatArray, bool]]
 Background = Literal["stage"] | Color | None
@@ -243,7 +245,7 @@ def _enter_device(painter: QPainter) -> QTransform:
     return surface
 
 
-def paint_picture(painter: QPainter, picture: Picture, transform: QTransform) -> None:
+def paint_picture(painter: QPainter, picture: "Picture", transform: QTransform) -> None:
     """Paint what one layer shows in its own style; the stroke grows with `transform`.
 
     Where fill and stroke would show through each other they are painted in full on a picture of their own first.
@@ -259,14 +261,14 @@ def paint_picture(painter: QPainter, picture: Picture, transform: QTransform) ->
     painter.restore()
 
 
-def _overlaps_itself(picture: Picture) -> bool:
+def _overlaps_itself(picture: "Picture") -> bool:
     """Whether parts of a picture are painted on top of others."""
     style, lines = picture.style, sum(not closed for _, closed in picture.outlines)
     both = style.fill is not None and style.stroke is not None and style.width > 0
     return (both and lines < len(picture.outlines)) or (lines > 0 and len(picture.outlines) > 1)
 
 
-def _paint_shapes(painter: QPainter, picture: Picture, transform: QTransform) -> None:
+def _paint_shapes(painter: QPainter, picture: "Picture", transform: QTransform) -> None:
     """Paint closed outlines with fill and stroke, and open ones as strokes: they have no inside."""
     style = picture.style
     width = style.width * _scale(transform) * painter.device().devicePixelRatio()
@@ -280,32 +282,42 @@ def _paint_shapes(painter: QPainter, picture: Picture, transform: QTransform) ->
         paint_outlines(painter, lines, fill=None, stroke=stroke or fill, width=width, transform=transform)
 
 
-def _paint_through(painter: QPainter, picture: Picture, transform: QTransform) -> None:
-    """Paint a picture in full on a layer of its own, and that one thinly."""
-    clip = painter.clipBoundingRect() if painter.hasClipping() else QRectF(painter.viewport())
-    ratio = painter.device().devicePixelRatio()
-    area = clip.toAlignedRect()
+def _paint_through(painter: QPainter, picture: "Picture", transform: QTransform) -> None:
+    """Paint a picture in full on a sheet of its own, no larger than needed, and that one thinly."""
+    device = painter.device()
+    room = painter.clipBoundingRect() if painter.hasClipping() else QRectF(painter.viewport())
+    area = _covered(picture, transform).intersected(room).toAlignedRect()
     if area.isEmpty():
         return
-    layer = QImage(area.size() * ratio, QImage.Format.Format_ARGB32_Premultiplied)
-    layer.setDevicePixelRatio(ratio)
-    layer.fill(Qt.GlobalColor.transparent)
-    inner = QPainter(layer)
+    fine = isinstance(device, QImage) and device.format() == QImage.Format.Format_RGBA64_Premultiplied
+    kind = QImage.Format.Format_RGBA64_Premultiplied if fine else QImage.Format.Format_ARGB32_Premultiplied
+    sheet = QImage(area.size() * device.devicePixelRatio(), kind)
+    sheet.setDevicePixelRatio(device.devicePixelRatio())
+    sheet.fill(Qt.GlobalColor.transparent)
+    inner = QPainter(sheet)
     try:
         _paint_shapes(inner, picture, transform * QTransform.fromTranslate(-area.x(), -area.y()))
     finally:
         inner.end()
     painter.save()
     painter.setOpacity(painter.opacity() * picture.opacity)
-    painter.drawImage(area.topLeft(), layer)
+    painter.drawImage(area.topLeft(), sheet)
     painter.restore()
+
+
+def _covered(picture: "Picture", transform: QTransform) -> QRectF:
+    """Return a rectangle around everything that is painted of a picture."""
+    points = _mapped(np.concatenate([p for p, _ in picture.outlines]), transform)
+    (left, top), (right, bottom) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+    reach = picture.style.width * _scale(transform) / 2 + 2
+    return QRectF(left, top, right - left, bottom - top).adjusted(-reach, -reach, reach, reach)
 
 
 def _scale(transform: QTransform) -> float:
     return math.sqrt(abs(transform.determinant()))
 
 
-def paint_frame(painter: QPainter, pictures: Iterable[Picture], transform: QTransform) -> None:
+def paint_frame(painter: QPainter, pictures: "Iterable[Picture]", transform: QTransform) -> None:
     """Paint the layers of a frame, from the back to the front."""
     for picture in pictures:
         paint_picture(painter, picture, transform)
@@ -323,12 +335,27 @@ def render_frame(
     document: Document,
     frame: float,
     size: QSize,
-    plans: HasMotions,
+    plans: "HasMotions",
     *,
     background: Background = "stage",
     format: QImage.Format = QImage.Format.Format_ARGB32_Premultiplied,
 ) -> QImage:
-    """Return the picture of a frame.
+    """Return the picture of a frame; see `render_pictures`."""
+    from core.model.motion import pictures_at
+
+    color = document.stage.background if background == "stage" else background
+    return render_pictures(pictures_at(document, frame, plans), document.stage, size, color, format=format)
+
+
+def render_pictures(
+    pictures: "Iterable[Picture]",
+    stage: Stage,
+    size: QSize,
+    background: Color | None,
+    *,
+    format: QImage.Format = QImage.Format.Format_ARGB32_Premultiplied,
+) -> QImage:
+    """Return the picture of what the layers show.
 
     Drawings are cut off at the edges of the stage; where `size` has another shape, the margins get
     the background. `format` is any that QPainter paints on.
@@ -341,13 +368,12 @@ def render_frame(
     image = QImage(size, format)
     if image.isNull():
         raise StorageError(f"no memory for a picture of {size.width()} x {size.height()} px; choose a smaller one")
-    color = document.stage.background if background == "stage" else background
-    image.fill(to_qcolor(color) if color else Qt.GlobalColor.transparent)
-    transform = stage_transform(document.stage, size)
+    image.fill(to_qcolor(background) if background else Qt.GlobalColor.transparent)
+    transform = stage_transform(stage, size)
     painter = QPainter(image)
     try:
-        painter.setClipRect(transform.mapRect(QRectF(0, 0, document.stage.width, document.stage.height)))
-        paint_frame(painter, pictures_at(document, frame, plans), transform)
+        painter.setClipRect(transform.mapRect(QRectF(0, 0, stage.width, stage.height)))
+        paint_frame(painter, pictures, transform)
     finally:
         painter.end()  # an image that dies under an active painter takes the program with it
     return image

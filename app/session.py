@@ -1,7 +1,7 @@
 """The open document, what is selected in it and where the playhead stands; the only place that changes them."""
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -9,68 +9,15 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoStack
 
 from app.commands import EditDocument, Step
+from app.selection import AnchorRef, OutlineRef, PinRef, Selection
 from core.errors import InkbetweenError
 from core.io.project import load, save
 from core.model.document import Document, Keyframe, Layer
 from core.model.references import with_absolute_references, with_relative_references
 
-UNDO_LIMIT = 200
+__all__ = ["AnchorRef", "DocumentDiff", "Gesture", "OutlineRef", "PinRef", "Selection", "Session"]
 
-OutlineRef = tuple[int, int]
-"""The frame of a keyframe in the active layer, and the id of an outline in its drawing."""
-
-
-@dataclass(frozen=True, slots=True)
-class AnchorRef:
-    """One anchor: the frame its span begins at, the two outlines' ids, its index in their pair."""
-
-    frame: int
-    before: int
-    after: int
-    index: int
-
-
-@dataclass(frozen=True, slots=True)
-class PinRef:
-    """One pin: the frame its span begins at, its index in the span."""
-
-    frame: int
-    index: int
-
-
-@dataclass(frozen=True, slots=True)
-class Selection:
-    """What the next edit is about.
-
-    Attributes
-    ----------
-    vertices : mapping from OutlineRef to sorted tuple of int
-        Selected vertices of each outline that has any.
-    anchor : AnchorRef or None
-    pin : PinRef or None
-    """
-
-    vertices: Mapping[OutlineRef, tuple[int, ...]] = field(default_factory=dict)
-    anchor: AnchorRef | None = None
-    pin: PinRef | None = None
-
-    @property
-    def count(self) -> int:
-        """Number of selected vertices."""
-        return sum(map(len, self.vertices.values()))
-
-    def has(self, ref: OutlineRef, index: int) -> bool:
-        return index in self.vertices.get(ref, ())
-
-    def with_vertices(self, ref: OutlineRef, indices: Iterable[int]) -> "Selection":
-        """Return a selection in which exactly these vertices of an outline are selected."""
-        kept = dict(self.vertices)
-        chosen = tuple(sorted(set(indices)))
-        if chosen:
-            kept[ref] = chosen
-        else:
-            kept.pop(ref, None)
-        return Selection(kept)
+UNDO_LIMIT = 1000
 
 
 @dataclass(frozen=True, slots=True)
@@ -370,18 +317,38 @@ class Session(QObject):
 
     def open(self, path: Path) -> None:
         """Open a file; raises InkbetweenError and keeps the open document if that fails."""
-        self._replace(with_absolute_references(load(path), path.parent), path, None)
+        self.opened(load(path), path)
+
+    def opened(self, document: Document, path: Path) -> None:
+        """Show a document that was read from a file."""
+        self._replace(with_absolute_references(document, path.parent), path, None)
+
+    def recovered(self, document: Document, path: Path | None, title: str) -> None:
+        """Show a document that was never saved like this, under the name it had."""
+        self._replace(document, path, title)
+        self.undo_stack.resetClean()
 
     def save(self, path: Path, completed: Document | None = None) -> None:
         """Write the document, or `completed`: the same one with the solver's answers stored in it.
 
         Raises StorageError and stays modified if that fails.
         """
+        self.settle()
+        save(with_relative_references(completed or self._document, path.parent), path)
+        self.saved(path, self._document)
+
+    def settle(self) -> None:
+        """End an open gesture as if the button had been released."""
         if self._gesture is not None:
             self._gesture.commit()
-        save(with_relative_references(completed or self._document, path.parent), path)
+
+    def saved(self, path: Path, document: Document) -> None:
+        """Take note that `document` is in a file now; what was changed meanwhile is still unsaved."""
         self.path, self.title = path, None
-        self.undo_stack.setClean()
+        if self._document is document:
+            self.undo_stack.setClean()
+        else:
+            self.undo_stack.resetClean()
         self.fileChanged.emit()
 
     def _replace(self, document: Document, path: Path | None, title: str | None) -> None:

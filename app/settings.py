@@ -35,10 +35,10 @@ class Settings:
         self._store.setValue(key, value)
 
     def recent_files(self) -> list[Path]:
-        """Return the files opened last that still exist, the newest first."""
+        """Return the files opened last, the newest first; some may be gone, or on a disk that is not there."""
         kept = self._store.value("recent", [])
         names = [kept] if isinstance(kept, str) else list(kept or [])
-        return [p for p in map(Path, map(str, names)) if p.is_file()]
+        return [Path(str(name)) for name in names]
 
     def add_recent(self, path: Path) -> None:
         names = [str(path.resolve())]

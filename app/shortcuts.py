@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QKeySequence
 
-from app.actions import ACTIONS, ActionTable
+from app.action_table import ActionTable
+from app.actions import ACTIONS
 from app.settings import Settings
 
 Keys = dict[str, tuple[str, ...]]

@@ -1,5 +1,7 @@
 """The main window: lays the parts out and joins them; what they do is elsewhere."""
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import (
@@ -14,17 +16,22 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.actions import ACTIONS, MENUS, ActionTable
+from app.action_table import ActionTable
+from app.actions import ACTIONS, MENUS
 from app.canvas.canvas import Canvas
+from app.foldings import remember_foldings
+from app.keys import Keys
 from app.panels.alternatives import AlternativesPanel
 from app.panels.certificate import CertificatePanel
 from app.panels.drawing import DrawingPanel
 from app.panels.easing import EasingPanel
 from app.panels.empty import WithoutSpan
 from app.panels.hints import HintBar
-from app.panels.messagebar import MessageBar
-from app.panels.parts import separator
+from app.panels.layer import LayerPanel
+from app.panels.messagebar import Choice, MessageBar
+from app.panels.parts import Section, separator
 from app.panels.reference import ReferencePanel
+from app.panels.sheet import SheetPanel
 from app.panels.span import SpanPanel
 from app.panels.timeline import Timeline, action_button
 from app.playback import Playback
@@ -43,6 +50,7 @@ from app.view import ViewState
 
 SIDE_WIDTH = 312
 TOOLBOX_WIDTH = 52
+SHEET_WIDTH = 260
 
 
 class Window(QMainWindow):
@@ -57,6 +65,7 @@ class Window(QMainWindow):
         preview: SpanPreview,
         ranked: AlternativesPreview,
         certificates: CertificatePreview,
+        keys: Keys,
         view: ViewState,
         playback: Playback,
         settings: Settings,
@@ -73,14 +82,17 @@ class Window(QMainWindow):
             "tool.correspond": CorrespondTool(self.canvas),
             "tool.pin": PinTool(self.canvas),
         }
-        self.timeline = Timeline(session, view, playback, certificates, theme, self.table.actions)
+        self.timeline = Timeline(session, view, playback, certificates, keys, theme, self.table.actions)
         self.alternatives_panel = AlternativesPanel(session, preview, ranked, theme)
         self.span_panel = SpanPanel(session, view, self.table.actions, preview, self.alternatives_panel)
         self.easing_panel = EasingPanel(session, theme)
         self.certificate_panel = CertificatePanel(session, certificates, theme)
         self.certificate_panel.problemChosen.connect(self.canvas.mark)
+        self.timeline.track.problemChosen.connect(self.canvas.mark)
         self.drawing_panel = DrawingPanel(session, theme, *self._tolerance())
+        self.layer_panel = LayerPanel(session, theme)
         self.reference_panel = ReferencePanel(session)
+        self.sheet = SheetPanel(session, theme, self.table.actions)
         self._advise()
         self.setCentralWidget(self._central())
         self.message_bar = MessageBar(self.canvas, theme)
@@ -113,9 +125,22 @@ class Window(QMainWindow):
         self.split.setStretchFactor(0, 1)
         self.split.setSizes([660, 190])
         row.addWidget(self._toolbox())
-        row.addWidget(self.split, 1)
+        row.addWidget(self._beside_sheet(), 1)
         row.addWidget(self._side())
         return central
+
+    def _beside_sheet(self) -> QWidget:
+        """Canvas and timeline, with the exposure sheet to the right when it is open."""
+        across = QSplitter(Qt.Orientation.Horizontal)
+        across.setHandleWidth(1)
+        across.setChildrenCollapsible(False)
+        across.addWidget(self.split)
+        across.addWidget(self.sheet)
+        across.setStretchFactor(0, 1)
+        across.setSizes([800, SHEET_WIDTH])
+        self.sheet.setVisible(self.view_state.options.sheet)
+        self.view_state.changed.connect(lambda: self.sheet.setVisible(self.view_state.options.sheet))
+        return across
 
     def _toolbox(self) -> QWidget:
         box = QWidget()
@@ -149,11 +174,13 @@ class Window(QMainWindow):
         column = QVBoxLayout(inner)
         column.setContentsMargins(0, 4, 0, 12)
         column.setSpacing(4)
-        for panel in (self.span_panel, self.easing_panel, self.certificate_panel, self.drawing_panel):
+        panels = self.span_panel, self.easing_panel, self.certificate_panel, self.drawing_panel, self.layer_panel
+        for panel in panels:
             column.addWidget(panel)
             column.addWidget(separator())
         column.addWidget(self.reference_panel)
         column.addStretch(1)
+        remember_foldings(inner.findChildren(Section), self.settings)
         scroll = QScrollArea()
         scroll.setWidgetResizable(True)
         scroll.setFrameShape(QFrame.Shape.NoFrame)
@@ -220,9 +247,9 @@ class Window(QMainWindow):
             self.canvas.set_tool(tool)
         self.canvas.setFocus()
 
-    def tell(self, text: str, kind: str = "error") -> None:
-        """Show one sentence over the canvas."""
-        self.message_bar.show_message(text, kind)
+    def tell(self, text: str, kind: str = "error", choices: Sequence[Choice] = ()) -> None:
+        """Show one sentence over the canvas, with buttons for what can be done about it."""
+        self.message_bar.show_message(text, kind, choices)
 
     def show_title(self) -> None:
         """Name the file and mark unsaved changes in the title and the status bar."""
@@ -239,7 +266,7 @@ class Window(QMainWindow):
         self.setStyleSheet(style_sheet(theme))
         self.table.set_theme(theme)
         panels = (self.alternatives_panel, self.easing_panel, self.certificate_panel, self.drawing_panel)
-        for part in (self.canvas, self.timeline, *panels, self.message_bar):
+        for part in (self.canvas, self.timeline, *panels, self.layer_panel, self.sheet, self.message_bar):
             part.set_theme(theme)
 
     def closeEvent(self, event: QCloseEvent) -> None:

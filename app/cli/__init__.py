@@ -18,9 +18,9 @@ A desktop in-betweening editor: draw keyframes, say which point goes where, see 
 commands:
   check FILE            say what is wrong with the in-betweens of a project, frame by frame
   demo                  open the editor on a sample; without a display, export the sample's frames
-  export FILE OUT_DIR   write the frames as numbered PNG pictures
+  export FILE OUT       write numbered pictures, a film, a sheet, Lottie and more
   info FILE             say what is in a project
-  new BEFORE AFTER      make a project of two SVG drawings
+  new BEFORE [AFTER]    make a project of SVG drawings or of a Lottie animation
 
 options:
   -h, --help            show this and exit

@@ -1,28 +1,43 @@
-"""File > Export Frames: where to, how large, which frames; then a progress bar that can be cancelled."""
+"""File > Export: presets, what is to be made and where, then a bar with the time that is left, and Cancel."""
 
+import time
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import (
-    QCheckBox,
+    QComboBox,
     QDialog,
     QDialogButtonBox,
-    QFileDialog,
-    QFormLayout,
-    QHBoxLayout,
-    QLineEdit,
     QMessageBox,
     QProgressBar,
     QPushButton,
+    QVBoxLayout,
     QWidget,
 )
 
+from app.dialogs.export_fields import ExportFields, row
 from app.dialogs.job import Job
-from app.export.frames import Exported, ExportSettings, export_frames, frame_path
-from app.panels.parts import label, number_field
+from app.export.estimate import estimate, told_size
+from app.export.export import Exported, export, output_files
+from app.export.film import check_frames, count_pictures
+from app.export.formats import FORMATS
+from app.export.names import frame_path
+from app.export.presets import PRESETS, Preset, kept_presets, presets_text
+from app.export.settings import ExportSettings
+from app.export.whole import InTheWayError
+from app.panels.parts import label
+from app.settings import Settings
 from core.errors import InkbetweenError
-from core.model.document import LARGEST_STAGE, Document
+from core.model.document import Document
+
+KEPT = "export/presets"
+CUSTOM = "Own settings"
+REST_MS = 250
+"""The size is estimated when the hand rests."""
+PATIENCE = 0.5
 
 
 class ExportJob(Job):
@@ -36,165 +51,234 @@ class ExportJob(Job):
         self._document, self._settings = document, settings
 
     def work(self) -> Exported:
-        return export_frames(
-            self._document, self._settings, progress=self.progressed.emit, cancelled=self._cancel.is_set
-        )
+        return export(self._document, self._settings, progress=self.progressed.emit, cancelled=self._cancel.is_set)
 
 
 class ExportDialog(QDialog):
-    """Modeless: drawing can go on while frames are written; the export has the document of its start."""
+    """Modeless: drawing goes on while files are written; an export has the document of its start."""
 
     told = Signal(str, str)
 
-    def __init__(self, document: Document, name: str, folder: Path, parent: QWidget | None = None) -> None:
+    def __init__(
+        self,
+        current: Callable[[], Document],
+        name: str,
+        folder: Path,
+        store: Settings,
+        parent: QWidget | None = None,
+    ) -> None:
         super().__init__(parent)
-        self.setWindowTitle("Export Frames")
-        self.setMinimumWidth(460)
-        self._document = document
+        self.setWindowTitle("Export")
+        self.setMinimumWidth(520)
+        self._current, self._store = current, store
         self._job: ExportJob | None = None
-        self._make_fields(name, folder)
+        self._own = kept_presets(store.text(KEPT))
+        self.fields = ExportFields(current(), name, folder)
+        self._make()
         self._lay_out()
-        self._fill()
+        self._show_presets(CUSTOM)
+        self.fields.changed.connect(self._on_changed)
+        self._on_changed()
 
-    def _make_fields(self, name: str, folder: Path) -> None:
-        last = self._document.length
-        self.folder = QLineEdit(str(folder))
-        self.name = QLineEdit(name)
-        self.wide = number_field(1, LARGEST_STAGE, "Width of the pictures in px", self._show_example, 80)
-        self.high = number_field(1, LARGEST_STAGE, "Height of the pictures in px", self._show_example, 80)
-        self.first = number_field(1, last, "First frame", self._show_example, 80)
-        self.last = number_field(1, last, "Last frame", self._show_example, 80)
-        self.transparent = QCheckBox("transparent background")
+    def _make(self) -> None:
+        self.presets = QComboBox()
+        self.presets.setEditable(True)
+        self.presets.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
+        self.presets.setToolTip("Choose a preset; or write a name and keep these settings under it")
+        self.presets.activated.connect(self._on_preset)
+        self.keep = QPushButton("Keep")
+        self.keep.setToolTip("Keep these settings as a preset with the name on the left")
+        self.drop = QPushButton("Remove")
+        self.drop.setToolTip("Forget this preset of yours")
+        for button, run in ((self.keep, self._keep_preset), (self.drop, self._drop_preset)):
+            button.setAutoDefault(False)
+            button.clicked.connect(run)
+        self.presets.editTextChanged.connect(self._show_preset_buttons)
         self.example = label("", "muted")
         self.example.setWordWrap(True)
+        self.size = label("", "muted")
         self.bar = QProgressBar()
         self.bar.setVisible(False)
-
-    def _fill(self) -> None:
-        """Begin with every frame, as large as the stage."""
-        stage = self._document.stage
-        self.wide.setValue(stage.width)
-        self.high.setValue(stage.height)
-        self.last.setValue(self._document.length)
-        self.transparent.setChecked(stage.background is None)
-        self.name.textChanged.connect(self._show_example)
-        self.folder.textChanged.connect(self._show_example)
-        self._show_example()
+        self._rest = QTimer(self)
+        self._rest.setSingleShot(True)
+        self._rest.timeout.connect(self._show_size)
 
     def _lay_out(self) -> None:
-        form = QFormLayout(self)
-        form.setContentsMargins(20, 20, 20, 16)
-        form.setSpacing(12)
-        browse = QPushButton("Choose…")
-        browse.setAutoDefault(False)
-        browse.clicked.connect(self._browse)
-        form.addRow("Folder", _row(self.folder, browse))
-        form.addRow("Name", self.name)
-        form.addRow("Size", _row(self.wide, label("x", "muted"), self.high, label("px", "muted"), stretch=True))
-        form.addRow("Frames", _row(self.first, label("to", "muted"), self.last, stretch=True))
-        form.addRow("", self.transparent)
-        form.addRow("", self.example)
-        form.addRow(self.bar)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(20, 20, 20, 16)
+        column.setSpacing(12)
+        self._preset_row = row(label("Preset"), self.presets, self.keep, self.drop)
+        self._preset_row.layout().setStretch(1, 1)
+        for widget in (self._preset_row, self.fields, self.example, self.size, self.bar):
+            column.addWidget(widget)
         button = QDialogButtonBox.StandardButton
         self.buttons = QDialogButtonBox(button.Cancel)
         self.start_button = self.buttons.addButton("Export", QDialogButtonBox.ButtonRole.AcceptRole)
         self.start_button.setDefault(True)
         self.start_button.clicked.connect(self._start)
         self.buttons.rejected.connect(self._cancel_or_close)
-        form.addRow(self.buttons)
-        self._fields = (
-            self.folder,
-            browse,
-            self.name,
-            self.wide,
-            self.high,
-            self.first,
-            self.last,
-            self.transparent,
-        )
+        column.addWidget(self.buttons)
 
     @property
     def job(self) -> ExportJob | None:
         """The export under way."""
         return self._job
 
+    # presets
+
+    def _show_presets(self, name: str) -> None:
+        self.presets.clear()
+        self.presets.addItems([*PRESETS, *self._own])
+        self.presets.setCurrentIndex(self.presets.findText(name))
+        self.presets.setEditText(name)
+        self._show_preset_buttons()
+
+    def _preset(self, name: str) -> Preset | None:
+        return self._own.get(name) or PRESETS.get(name)
+
+    def _on_preset(self, *_: object) -> None:
+        preset = self._preset(self.presets.currentText())
+        if preset is not None:
+            self.fields.show_document(self._current())
+            self.fields.apply(preset)
+
+    def _show_preset_buttons(self, *_: object) -> None:
+        name = self.presets.currentText().strip()
+        self.keep.setEnabled(name not in ("", CUSTOM) and name not in PRESETS)
+        self.drop.setEnabled(name in self._own)
+
+    def _keep_preset(self) -> None:
+        name = self.presets.currentText().strip()
+        try:
+            self._own[name] = self.fields.preset()
+        except InkbetweenError as e:
+            self.told.emit(str(e), "error")
+            return
+        self._store.keep(KEPT, presets_text(self._own))
+        self._show_presets(name)
+
+    def _drop_preset(self) -> None:
+        self._own.pop(self.presets.currentText().strip(), None)
+        self._store.keep(KEPT, presets_text(self._own))
+        self._show_presets(CUSTOM)
+
+    # what will be made
+
     def settings(self) -> ExportSettings:
         """Return what the fields say; raises InkbetweenError if it makes no sense."""
-        stage_color = self._document.stage.background
-        return ExportSettings(
-            folder=Path(self.folder.text()).expanduser(),
-            name=self.name.text(),
-            first=self.first.value(),
-            last=self.last.value(),
-            size=(self.wide.value(), self.high.value()),
-            background=None if self.transparent.isChecked() else (stage_color or "#ffffff"),
-        )
+        settings = self.fields.settings()
+        check_frames(self._current(), settings)
+        return settings
 
-    def _show_example(self, *_: object) -> None:
+    def _on_changed(self) -> None:
+        """Show the names at once, and the size when the hand rests."""
+        self._rest.start(REST_MS)
         try:
             settings = self.settings()
         except InkbetweenError as e:
             self.example.setText(str(e))
+            self.size.clear()
             self.start_button.setEnabled(False)
             return
-        self.start_button.setEnabled(True)
-        first, last = (frame_path(settings, f).name for f in (settings.first, settings.last))
-        self.example.setText(f"{first} to {last}" if first != last else first)
+        self.start_button.setEnabled(self._job is None)
+        self.example.setText(self._names(settings))
 
-    def _browse(self) -> None:
-        name = QFileDialog.getExistingDirectory(self, "Folder for the frames", self.folder.text())
-        if name:
-            self.folder.setText(name)
+    def _names(self, settings: ExportSettings) -> str:
+        if not FORMATS[settings.format].frames:
+            return settings.out.name
+        layer = self._current().layers[-1].name
+        count = count_pictures(settings, self._current().rate)
+        first = frame_path(settings, settings.first, drawing=1, layer=layer).name
+        last = frame_path(settings, settings.first + count - 1, drawing=count, layer=layer).name
+        return first if first == last else f"{first} to {last}"
+
+    def _show_size(self) -> None:
+        try:
+            settings, document = self.settings(), self._current()
+            count = count_pictures(settings, document.rate)
+            seconds = float(count / (settings.rate or document.rate))
+            size = told_size(estimate(document, settings))
+        except InkbetweenError:
+            return
+        self.size.setText(f"{count} picture{'' if count == 1 else 's'}, {seconds:.2f} s, about {size}")
+
+    # making it
 
     def _start(self) -> None:
-        settings = self.settings()
-        frames = range(settings.first, settings.last + 1)
-        there = [p for p in (frame_path(settings, f) for f in frames) if p.exists()]
-        if there and not self._may_overwrite(len(there), settings.folder):
+        document = self._current()
+        try:
+            settings = self.settings()
+            there = [p for p in output_files(document, replace(settings, exposures=False)) if p.exists()]
+        except InkbetweenError as e:
+            self.told.emit(str(e), "error")
             return
-        for field in self._fields:
-            field.setEnabled(False)
-        self.start_button.setEnabled(False)
-        self.bar.setRange(0, len(frames))
-        self.bar.setFormat("%v of %m frames")
-        self.bar.setVisible(True)
-        self._job = ExportJob(self._document, settings, self)
+        if there:
+            answer = self._ask(there)
+            if answer is None:
+                return
+            settings = replace(settings, replace=answer == "replace", proceed=answer == "proceed")
+        self._show_working(True)
+        self.bar.setRange(0, 0)
+        self._began = time.monotonic()
+        self._job = ExportJob(document, settings, self)
         self._job.progressed.connect(self._on_progressed)
         self._job.finished.connect(self._on_finished)
         self._job.start()
 
-    def _may_overwrite(self, count: int, folder: Path) -> bool:
-        what = "One frame" if count == 1 else f"{count} frames"
-        answer = QMessageBox.question(
-            self, "Export Frames", f"{what} of these names are in {folder} already. Replace them?"
-        )
-        return answer == QMessageBox.StandardButton.Yes
+    def _ask(self, there: list[Path]) -> str | None:
+        """Return whether to replace files or make the missing ones only, None for neither."""
+        box = QMessageBox(self)
+        box.setWindowTitle("Export")
+        box.setIcon(QMessageBox.Icon.Question)
+        box.setText(f"{InTheWayError(there)}. Replace?")
+        replaced = box.addButton("Replace", QMessageBox.ButtonRole.DestructiveRole)
+        missing = box.addButton("Make the Missing Ones", QMessageBox.ButtonRole.AcceptRole)
+        box.addButton(QMessageBox.StandardButton.Cancel)
+        box.setDefaultButton(missing)
+        box.exec()
+        return {replaced: "replace", missing: "proceed"}.get(box.clickedButton())
+
+    def _show_working(self, on: bool) -> None:
+        self.bar.setVisible(on)
+        for widget in (self.fields, self._preset_row, self.start_button):
+            widget.setEnabled(not on)
 
     def _on_progressed(self, done: int, total: int) -> None:
         self.bar.setMaximum(total)
         self.bar.setValue(done)
+        spent = time.monotonic() - self._began
+        left = f", {max(1, round(spent * (total - done) / done))} s left" if spent > PATIENCE else ""
+        self.bar.setFormat(f"%v of %m{left}")
 
     def _on_finished(self, result: object) -> None:
         self._job = None
         if isinstance(result, Exported) and not result.cancelled:
-            self.told.emit(f"{len(result.files)} frames are in {result.files[0].parent}", "info")
+            self.told.emit(_told(result), "info")
             self.accept()
             return
         if isinstance(result, Exported):
-            self.told.emit(f"Export cancelled; {len(result.files)} frames were finished and stay.", "info")
+            count = len(result.files)
+            stay = f"{count} file{'' if count == 1 else 's'} finished and stay" if count else "nothing was written"
+            self.told.emit(f"Export cancelled; {stay}.", "info")
         else:
             self.told.emit(str(result), "error")
+        self._show_working(False)
+        self._on_changed()
+        if not isinstance(result, Exported):
             self.example.setText(str(result))
-        self.bar.setVisible(False)
-        for field in self._fields:
-            field.setEnabled(True)
-        self.start_button.setEnabled(True)
 
     def _cancel_or_close(self) -> None:
         if self._job is not None:
             self._job.cancel()
         else:
             self.reject()
+
+    def reject(self) -> None:
+        """Escape cancels an export, or closes the dialog."""
+        if self._job is not None:
+            self._job.cancel()
+        else:
+            super().reject()
 
     def closeEvent(self, event: QCloseEvent) -> None:
         if self._job is not None:
@@ -203,12 +287,10 @@ class ExportDialog(QDialog):
         super().closeEvent(event)
 
 
-def _row(*widgets: QWidget, stretch: bool = False) -> QWidget:
-    row = QWidget()
-    box = QHBoxLayout(row)
-    box.setContentsMargins(0, 0, 0, 0)
-    for widget in widgets:
-        box.addWidget(widget)
-    if stretch:
-        box.addStretch(1)
-    return row
+def _told(exported: Exported) -> str:
+    files, kept = exported.files, f"; {exported.kept} were there already" if exported.kept else ""
+    if not files:
+        return f"Nothing to do: all {exported.kept} files were there already."
+    if len(files) == 1:
+        return f"{files[0].name} is in {files[0].parent}{kept}"
+    return f"{len(files)} frames are in {files[0].parent}{kept}"

@@ -1,4 +1,4 @@
-"""Reading an SVG beside the window, with a bar and Cancel when it takes a while."""
+"""Reading a file or folder beside the window, with a bar and Cancel when it takes a while."""
 
 from pathlib import Path
 
@@ -17,7 +17,7 @@ STEPS = 1000
 
 
 class ImportJob(Job):
-    """One file read; it ends with an Imported."""
+    """One file or folder read; it ends with an Imported, or with an ImportedFilm where there are keyframes."""
 
     progressed = Signal(float)
     name = "import"
@@ -28,9 +28,16 @@ class ImportJob(Job):
         self.trouble = f"cannot import {path.name}"
 
     def work(self) -> object:
+        from core.io.lottie import read_lottie
         from core.io.svg import read_svg
+        from core.io.svg_folder import read_svg_folder
 
-        return read_svg(self.path, tolerance=None, progress=self.progressed.emit, cancelled=self._cancel.is_set)
+        told, asked = self.progressed.emit, self._cancel.is_set
+        if self.path.is_dir():
+            return read_svg_folder(self.path, progress=told, cancelled=asked)
+        if self.path.suffix.lower() == ".json":
+            return read_lottie(self.path)
+        return read_svg(self.path, tolerance=None, progress=told, cancelled=asked)
 
 
 class ImportDialog(QDialog):
@@ -40,7 +47,7 @@ class ImportDialog(QDialog):
 
     def __init__(self, path: Path, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setWindowTitle("Import SVG")
+        self.setWindowTitle("Import")
         self.setWindowModality(Qt.WindowModality.WindowModal)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setMinimumWidth(380)

@@ -6,7 +6,8 @@ from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QColor, QKeyEvent, QMouseEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
 
-from app.actions import ACTIONS, MENUS, ActionTable
+from app.action_table import ActionTable
+from app.actions import ACTIONS, MENUS
 from app.canvas.tool import Tool
 from app.shortcuts import Shortcuts
 

@@ -7,7 +7,8 @@ from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QFocusEvent, QKeyEvent
 from PySide6.QtWidgets import QFrame, QHeaderView, QLineEdit, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
-from app.actions import ACTIONS, ActionTable
+from app.action_table import ActionTable
+from app.actions import ACTIONS
 
 WIDTH, ROW_HEIGHT, MOST_ROWS = 620, 28, 12
 LEFT_OUT = ("file.recent", "help.find")

@@ -16,7 +16,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.actions import ACTIONS, MENUS, ActionTable
+from app.action_table import ActionTable
+from app.actions import ACTIONS, MENUS
 from app.shortcuts import PRESETS, Shortcuts, normal
 
 ID = Qt.ItemDataRole.UserRole

@@ -13,9 +13,9 @@ from app.session import Session
 from app.theme import Theme
 from core.correspondence.matching import Alternative
 from core.geometry.outline import FloatArray
-from core.methods.plan import inbetween
 from core.model.document import OutlinePair
 from core.model.edits import choose_correspondence, solve_again
+from core.repair.between import inbetween
 
 COLUMNS = 3
 PICTURE = QSize(76, 48)

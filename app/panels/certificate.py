@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QIcon, QPainter, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from app.panels.parts import Section, flat_button
+from app.panels.parts import Section, flat_button, label
 from app.preview.certificates import CertificatePreview
 from app.session import Session
 from app.theme import Theme
@@ -115,6 +115,13 @@ class CertificatePanel(QWidget):
         self.repair.setFixedHeight(23)
         self.repair.clicked.connect(self._on_repair)
         self._grid.addWidget(self.repair, 0, 1)
+        self.advice = label("", "muted")
+        self.advice.setWordWrap(True)
+        self.section.box.addWidget(self.advice)
+        self.better = QPushButton("Take intrinsic, repaired")
+        self.better.setToolTip("Change the method to intrinsic and repair its crossings, in one step")
+        self.better.clicked.connect(self._on_better)
+        self.section.box.addWidget(self.better)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(self.section)
@@ -137,6 +144,10 @@ class CertificatePanel(QWidget):
         if made is not self._shown:
             self._show(made)
         self.section.note.setVisible(there)
+        advice = made.advice if made else ""
+        self.advice.setText(advice)
+        self.advice.setVisible(bool(advice))
+        self.better.setVisible(bool(advice))
         crossed = any((p.kind, p.severity) == ("crossing", "error") for p in (made.summary if made else ()))
         self.repair.setVisible(crossed and before is not None and not before.span.repair)
 
@@ -167,6 +178,12 @@ class CertificatePanel(QWidget):
         if frame is not None:
             self.session.go_to(frame)
             self.problemChosen.emit(problem.place, SEVERITY_COLORS[problem.severity])
+
+    def _on_better(self) -> None:
+        before, _ = self.session.span_keyframes()
+        if before is not None:
+            change = {"method": "intrinsic", "repair": True}
+            self.session.apply("Repair as Intrinsic", set_span, self.session.layer.id, before.frame, **change)
 
     def _on_repair(self) -> None:
         before, _ = self.session.span_keyframes()

@@ -1,11 +1,16 @@
 """One sentence over the canvas: what went wrong or what was done, never a box that must be clicked away."""
 
+from collections.abc import Callable, Sequence
+
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QToolButton, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QToolButton, QWidget
 
 from app.theme import Theme, icon, pixmap
 
 INFO_MS, ERROR_MS = 5000, 12000
+
+Choice = tuple[str, Callable[[], object]]
+"""What a button says, and what it does."""
 
 
 class MessageBar(QFrame):
@@ -28,6 +33,10 @@ class MessageBar(QFrame):
         self._close.clicked.connect(self.hide)
         row.addWidget(self._sign)
         row.addWidget(self._text, 1)
+        self._choices = QHBoxLayout()
+        self._choices.setSpacing(8)
+        self.buttons: list[QPushButton] = []
+        row.addLayout(self._choices)
         row.addWidget(self._close)
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
@@ -45,8 +54,9 @@ class MessageBar(QFrame):
         self.theme = theme
         self._close.setIcon(icon("close", theme))
 
-    def show_message(self, text: str, kind: str = "error") -> None:
-        """Show a sentence; `kind` is "error" or "info"."""
+    def show_message(self, text: str, kind: str = "error", choices: Sequence[Choice] = ()) -> None:
+        """Show a sentence; `kind` is "error" or "info". One with choices stays until it is answered or closed."""
+        self._offer(choices)
         self._text.setText(text[:1].upper() + text[1:])
         token = "error" if kind == "error" else "accent"
         self._sign.setPixmap(pixmap("warning" if kind == "error" else "info", self.theme.color(token), 18))
@@ -56,12 +66,26 @@ class MessageBar(QFrame):
         self._place()
         self.show()
         self.raise_()
-        self._timer.start(ERROR_MS if kind == "error" else INFO_MS)
+        if choices:
+            self._timer.stop()
+        else:
+            self._timer.start(ERROR_MS if kind == "error" else INFO_MS)
+
+    def _offer(self, choices: Sequence[Choice]) -> None:
+        for button in self.buttons:
+            button.deleteLater()
+            self._choices.removeWidget(button)
+        self.buttons = [QPushButton(text) for text, _ in choices]
+        for button, (_, run) in zip(self.buttons, choices, strict=True):
+            button.clicked.connect(self.hide)
+            button.clicked.connect(lambda _=False, run=run: run())
+            self._choices.addWidget(button)
 
     def _place(self) -> None:
         over = self.parentWidget()
-        width = min(over.width() - 32, 620)
-        height = max(40, self.layout().heightForWidth(width), self._text.heightForWidth(width - 90) + 18)
+        beside = 90 + sum(button.sizeHint().width() + 8 for button in self.buttons)
+        width = min(over.width() - 32, 620 + 120 * len(self.buttons))
+        height = max(40, self.layout().heightForWidth(width), self._text.heightForWidth(width - beside) + 18)
         self.setGeometry((over.width() - width) // 2, over.height() - height - 16, width, height)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:

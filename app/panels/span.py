@@ -16,6 +16,14 @@ METHODS = (
     ("rigid", "rigid", "The inside stays as stiff as it can: areas hold, thick and thin alike"),
     ("auto", "auto", "The better of rigid and intrinsic, by their certificates"),
 )
+PLACEMENTS = (
+    (
+        "still",
+        "still parts stay",
+        "What hardly moves between the keyframes stays where it is: a foot does not slide",
+    ),
+    ("centroid", "centroid straight", "The middle of the area goes straight, as that of a thrown thing does"),
+)
 LINES = (
     ("all", "all", "Draw the lines of the whole correspondence"),
     ("anchors", "anchors", "Draw only the pairs that you fixed"),
@@ -39,7 +47,7 @@ class SpanPanel(QWidget):
         super().__init__(parent)
         self.alternatives, self.preview = alternatives, preview
         self.session, self.view_state = session, view
-        self._method_section()
+        self._method_section(actions)
         self._correspondence_section(actions)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
@@ -49,12 +57,16 @@ class SpanPanel(QWidget):
         for signal in (session.documentChanged, session.frameChanged, session.layerChanged, view.changed):
             signal.connect(self._refresh)
         preview.planned.connect(self._refresh)
+        for signal in (session.documentChanged, session.frameChanged, session.layerChanged):
+            signal.connect(lambda *_: self._on_pointed(self._pointed))
         self._refresh()
 
-    def _method_section(self) -> None:
+    def _method_section(self, actions: dict[str, QAction]) -> None:
         self.span_section = Section("Span")
         self.methods = Segments(METHODS)
         self.methods.chosen.connect(self._on_method)
+        self.methods.pointed.connect(self._on_pointed)
+        self._pointed = ""
         self.span_section.box.addWidget(self.methods)
         self.about = label("", "muted")
         self.about.setWordWrap(True)
@@ -62,14 +74,20 @@ class SpanPanel(QWidget):
         self.turns = number_field(
             -MOST_TURNS,
             MOST_TURNS,
-            "Extra whole turns on the way, clockwise; intrinsic only",
+            "Extra whole turns on the way, clockwise; not for linear",
             self._on_turns,
         )
+        self.other_way = QPushButton("Other way round")
+        self.other_way.setToolTip(actions["span.other_way"].toolTip())
+        self.other_way.clicked.connect(actions["span.other_way"].trigger)
         self.compare = QPushButton("Compare")
         self.compare.setCheckable(True)
         self.compare.setToolTip("Show linear and intrinsic beside each other, at t = 0, 0.2 ... 1")
         self.compare.clicked.connect(lambda on: self.view_state.set(arrangement="compare" if on else "overlaid"))
-        self.span_section.add_row("extra turns", self.turns, self.compare)
+        self.span_section.add_row("extra turns", self.turns, self.other_way)
+        self.placement = Segments(PLACEMENTS)
+        self.placement.chosen.connect(self._on_placement)
+        self.span_section.box.addWidget(self.placement)
         self.repair = QCheckBox("repair crossings")
         self.repair.setToolTip("Bend the in-betweens just as far as needed, so that none crosses itself")
         self.repair.clicked.connect(self._on_repair)
@@ -80,7 +98,7 @@ class SpanPanel(QWidget):
         self.stop = flat_button("Stop", "Leave this span unrepaired for now")
         self.stop.clicked.connect(self._on_stop)
         row = QHBoxLayout()
-        for widget in (self.repair, self.progress, self.stop):
+        for widget in (self.repair, self.progress, self.stop, self.compare):
             row.addWidget(widget)
         self.span_section.box.addLayout(row)
         self.preview.progressed.connect(lambda share: self.progress.setValue(round(100 * share)))
@@ -104,7 +122,15 @@ class SpanPanel(QWidget):
     def _refresh(self, *_: object) -> None:
         before, after = self.session.span_keyframes()
         there = before is not None and after is not None
-        for widget in (self.methods, self.turns, self.compare, self.add, self.repair):
+        for widget in (
+            self.methods,
+            self.turns,
+            self.other_way,
+            self.placement,
+            self.compare,
+            self.add,
+            self.repair,
+        ):
             widget.setEnabled(there)
         self.lines.set_value(self.view_state.options.lines)
         self.compare.setChecked(self.view_state.options.arrangement == "compare")
@@ -124,7 +150,10 @@ class SpanPanel(QWidget):
         self.about.setText(self._about(before, after))
         if self.turns.value() != span.turns:
             self.turns.setValue(span.turns)
-        self.turns.setEnabled(span.method != "linear")
+        self.placement.set_value(span.placement)
+        for widget in (self.turns, self.other_way):
+            widget.setEnabled(span.method != "linear")
+        self.placement.setEnabled(span.method != "linear" and not span.pins)
         count = sum(len(p.anchors) for p in span.pairs)
         self.correspondence_section.note.setText(
             f"{count} anchor{'' if count == 1 else 's'}" if count else "automatic"
@@ -134,11 +163,12 @@ class SpanPanel(QWidget):
     def _about(self, before: Keyframe, after: Keyframe) -> str:
         """Say what the method does; of auto what it chose, and what did not go as asked."""
         span = before.span
+        method = self.preview.tried_method(before, self.session.layer.id) or span.method
         plan = self.preview.plan(before, after, self.session.layer.id)
         if self.preview.waiting(before, self.session.layer.id):
-            what = "the repair" if span.repair else span.method
+            what = "the repair" if span.repair else method
             return f"Solving {what}; until then {plan.paths.method} is shown."
-        tip = next(tip for value, _, tip in METHODS if value == span.method)
+        tip = next(tip for value, _, tip in METHODS if value == method)
         return ". ".join((plan.paths.reason or tip, *plan.paths.notes))
 
     def _advice(self) -> str:
@@ -157,6 +187,18 @@ class SpanPanel(QWidget):
         frame = self._frame()
         if frame is not None:
             self.session.apply("Change Method", set_span, self.session.layer.id, frame, method=method)
+
+    def _on_pointed(self, method: str) -> None:
+        """Show the in-betweens by the method under the pointer as long as it rests there."""
+        self._pointed = method
+        before, after = self.session.span_keyframes()
+        there = method and before is not None and after is not None and not self.session.in_gesture
+        self.preview.try_method(before if there else None, self.session.layer.id, method)
+
+    def _on_placement(self, placement: str) -> None:
+        frame = self._frame()
+        if frame is not None:
+            self.session.apply("Change Placement", set_span, self.session.layer.id, frame, placement=placement)
 
     def _on_repair(self, on: bool) -> None:
         frame = self._frame()

@@ -6,6 +6,7 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
 
+from app.keys import Keys
 from app.panels.onion import OnionFields
 from app.panels.parts import label, number_field, separator
 from app.panels.track import Track
@@ -15,8 +16,9 @@ from app.session import Session
 from app.theme import Theme
 from app.view import ViewState
 from core.errors import InkbetweenError
-from core.model.document import LONGEST, as_rate, ratio_in_span
+from core.model.document import LONGEST, as_rate
 from core.model.edits import set_length, set_rate
+from core.model.timing import drawn_ratio
 
 ROOMY = 860
 """Width in px from which the onion skin's fields fit beside the rest."""
@@ -31,6 +33,7 @@ class Timeline(QWidget):
         view: ViewState,
         playback: Playback,
         certificates: CertificatePreview,
+        keys: Keys,
         theme: Theme,
         actions: dict[str, QAction],
         parent: QWidget | None = None,
@@ -39,7 +42,7 @@ class Timeline(QWidget):
         self.setObjectName("timeline")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self.session, self.view_state, self.playback, self.theme = session, view, playback, theme
-        self.track = Track(session, certificates, theme)
+        self.track = Track(session, certificates, keys, theme, actions)
         box = QVBoxLayout(self)
         box.setContentsMargins(0, 0, 0, 0)
         box.setSpacing(0)
@@ -58,7 +61,10 @@ class Timeline(QWidget):
         row = QHBoxLayout(bar)
         row.setContentsMargins(12, 8, 16, 8)
         row.setSpacing(4)
-        for name in ("play.first", "play.previous", "play.toggle", "play.next", "play.last", "play.loop"):
+        for name in ("play.first", "play.previous", "play.toggle", "play.next", "play.last"):
+            row.addWidget(action_button(actions[name]))
+        row.addSpacing(6)
+        for name in ("play.loop", "play.ping_pong", "key.add"):
             row.addWidget(action_button(actions[name]))
         row.addSpacing(10)
         self.t_label = label("", "strong")
@@ -92,6 +98,14 @@ class Timeline(QWidget):
         self.rate_field.editingFinished.connect(self._on_rate)
         row.addWidget(self.rate_field)
         row.addWidget(label("fps", "muted"))
+        self.dropped_label = label("", "badge")
+        self.dropped_label.setToolTip("Frames that were not shown in time since playing began")
+        self.playback.dropping.connect(self._show_dropped)
+        row.addSpacing(6)
+        row.addWidget(self.dropped_label)
+
+    def _show_dropped(self, count: int) -> None:
+        self.dropped_label.setText(f"{count} dropped" if count else "")
 
     def set_theme(self, theme: Theme) -> None:
         self.theme = theme
@@ -111,7 +125,10 @@ class Timeline(QWidget):
         before, after = self.session.span_keyframes()
         if before is None or after is None:
             return ""
-        t = before.span.easing.t_at(ratio_in_span(before, after, self.session.frame))
+        length, offset = after.frame - before.frame, self.session.frame - before.frame
+        if before.span.hold and offset < length:
+            return "hold"
+        t = before.span.easing.t_at(drawn_ratio(before.span, length, offset) if offset < length else 1.0)
         return f"t {float(t):.2f}"
 
     def _on_length(self, length: int) -> None:

@@ -1,62 +1,108 @@
 """The frames of the timeline: a ruler, a row a layer, keyframes as diamonds, spans as bars, the playhead."""
 
+from collections.abc import Mapping
 from itertools import pairwise
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QContextMenuEvent, QFont, QKeyEvent, QMouseEvent, QPainter, QPen, QPolygonF, QWheelEvent
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtCore import QPointF, QRect, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import (
+    QAction,
+    QContextMenuEvent,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPixmap,
+    QResizeEvent,
+    QWheelEvent,
+)
+from PySide6.QtWidgets import QScrollBar, QSizePolicy, QToolButton, QWidget
 
+from app.keys import Keys
+from app.panels import track_header, track_menus
+from app.panels.track_drags import Band, Drag, MoveKeys, MoveLayer, Scrub, SetRange, StretchKeys
+from app.panels.track_header import NameField
+from app.panels.track_picture import whole_picture
+from app.panels.track_rows import SEVERITY_COLORS, RowPainter
+from app.panels.track_ruler import paint_playhead, range_edge_under, small_font
+from app.panels.track_spot import Spot
+from app.panels.track_view import HEADER, ROW, RULER, TrackView
 from app.preview.certificates import CertificatePreview
-from app.session import DocumentDiff, Gesture, Session
+from app.session import DocumentDiff, Session
 from app.theme import Theme
-from core.model.checking import SpanCertificate, finding
-from core.model.document import Document, Keyframe, Layer
-from core.model.edits import move_keyframe
+from core.model.checking import SpanCertificate
+from core.model.document import Document, Layer
+from core.model.edits import set_layer
+from core.model.frame_edits import KeyRef
 
-HEADER = 120
-RULER = 34
-ROW = 36
-RIGHT = 28
-NARROWEST = 5.0
-WIDEST = 60.0
-DIAMOND = 7.0
-BAR = 5.0
-"""Half the height of a span's bar."""
-
-SEVERITY_COLORS = {"": "good", "info": "good", "warning": "warning", "error": "error"}
-SELDOM = (1, 2, 5, 6, 12, 24, 48, 120, 240, 600, 1200, 6000, 12000, 60000)
+SHIFT, CTRL = Qt.KeyboardModifier.ShiftModifier, Qt.KeyboardModifier.ControlModifier
+BARELY = 9
+"""Width of a scroll bar, px."""
 
 
-def _shown(document: Document) -> list[tuple[object, ...]]:
-    return [(layer.id, layer.name, layer.visible, layer.frames()) for layer in document.layers]
+def _shown(document: Document, layers: frozenset[int]) -> list[object]:
+    """Return what of these layers is seen here."""
+    return [
+        (
+            (x.id, x.name, x.visible, x.locked, x.color, x.parent),
+            [(k.frame, k.smooth, k.span.hold, k.span.step, k.span.exposures) for k in x.keyframes],
+        )
+        for x in document.layers
+        if x.id in layers
+    ]
 
 
 class Track(QWidget):
-    """Drag to scrub; drag a diamond to move its keyframe; click a row's name to draw on that layer."""
+    """Drag in the ruler to scrub, a keyframe to move the selected ones, anywhere else to select several.
 
-    menuWanted = Signal(int, object)  # frame, place on the screen
+    `problemChosen` tells the place and the colour of the problem that a click on a bar went to.
+    """
+
+    problemChosen = Signal(object, str)
 
     def __init__(
-        self, session: Session, certificates: CertificatePreview, theme: Theme, parent: QWidget | None = None
+        self,
+        session: Session,
+        certificates: CertificatePreview,
+        keys: Keys,
+        theme: Theme,
+        actions: Mapping[str, QAction],
+        parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
-        self.session, self.certificates, self.theme = session, certificates, theme
+        self.session, self.certificates, self.keys, self.theme = session, certificates, keys, theme
+        self.actions_by_id = actions
+        self.view = TrackView(session)
         self._painted: list[SpanCertificate | None] = []
-        self._gesture: Gesture | None = None
-        self._held: int | None = None
-        self._scrubbing = False
-        self._press_x = 0.0
-        self._left = 0.0
-        self._top = 0.0
-        self._hover_key: tuple[int, int] | None = None
+        self._picture: QPixmap | None = None
+        self._spot = Spot(self.view, certificates, keys)
+        self._drag: Drag | None = None
+        self.hover_key: KeyRef | None = None
+        self.hover_part: tuple[int, str] | None = None
+        self.name_field: NameField | None = None
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        self.setToolTip("")
+        self.setAccessibleName("Timeline")
+        self._make_parts()
+        self._connect()
+
+    def _make_parts(self) -> None:
+        self.add_button = QToolButton(self)
+        self.add_button.setDefaultAction(self.actions_by_id["layer.add"])
+        self.add_button.setIconSize(QSize(16, 16))
+        self.add_button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.add_button.setGeometry(HEADER - 8 - 24, 4, 24, 24)
+        self.across = QScrollBar(Qt.Orientation.Horizontal, self)
+        self.down = QScrollBar(Qt.Orientation.Vertical, self)
+        self.across.valueChanged.connect(lambda x: self._scroll_to(x, self.view.top))
+        self.down.valueChanged.connect(lambda y: self._scroll_to(self.view.left, y))
+
+    def _connect(self) -> None:
+        session = self.session
         session.documentChanged.connect(self._on_document_changed)
-        session.layerChanged.connect(self.update)
         session.frameChanged.connect(self._on_frame_changed)
-        certificates.changed.connect(self.update)
+        session.layerChanged.connect(self._on_layer_changed)
+        for signal in (session.soloChanged, session.rangeChanged, self.keys.changed, self.certificates.changed):
+            signal.connect(self.refresh)
 
     def sizeHint(self) -> QSize:
         return QSize(600, RULER + 3 * ROW)
@@ -66,275 +112,267 @@ class Track(QWidget):
 
     def set_theme(self, theme: Theme) -> None:
         self.theme = theme
-        self.update()
+        self.refresh()
 
     # places
 
-    @property
-    def step(self) -> float:
-        """Width of a frame in px: all frames fit if they can."""
-        room = self.width() - HEADER - RIGHT
-        return min(max(room / max(self.session.document.length - 1, 1), NARROWEST), WIDEST)
-
     def x_of(self, frame: float) -> float:
-        return HEADER + (frame - 1) * self.step - self._left
-
-    def frame_at(self, x: float) -> int:
-        return round((x - HEADER + self._left) / self.step) + 1
-
-    def row_rect(self, row: int) -> QRectF:
-        return QRectF(0, RULER + row * ROW - self._top, self.width(), ROW)
-
-    def _rows(self) -> tuple[Layer, ...]:
-        """Layers from the front one down, as they lie on the stage."""
-        return self.session.document.layers[::-1]
-
-    def _row_at(self, y: float) -> int | None:
-        row = int((y - RULER + self._top) // ROW)
-        return row if y >= RULER and 0 <= row < len(self._rows()) else None
+        return self.view.x_of(frame)
 
     def key_place(self, layer: Layer, frame: int) -> QPointF:
         """Return where a keyframe's diamond lies."""
-        row = next(i for i, x in enumerate(self._rows()) if x.id == layer.id)
-        return QPointF(self.x_of(frame), self.row_rect(row).center().y())
+        return self.view.key_place(layer, frame)
 
-    def _key_under(self, at: QPointF) -> tuple[int, int] | None:
-        row = self._row_at(at.y())
-        if row is None:
-            return None
-        layer = self._rows()[row]
-        near = [k.frame for k in layer.keyframes if abs(self.x_of(k.frame) - at.x()) <= DIAMOND + 2]
-        if not near or abs(self.row_rect(row).center().y() - at.y()) > DIAMOND + 4:
-            return None
-        return layer.id, min(near, key=lambda f: abs(self.x_of(f) - at.x()))
+    def part_place(self, layer: Layer, part: str) -> QPointF:
+        """Return the middle of a part of a row's head: "name", "visible", "locked" or "solo"."""
+        rect = self.view.row_rect(self.view.row_of(layer.id))
+        place = track_header.name_rect(rect) if part == "name" else track_header.part_rect(rect, part)
+        return place.center()
 
     # the pointer
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        if event.button() != Qt.MouseButton.LeftButton:
-            return
-        at = event.position()
-        self._press_x = at.x()
-        row = self._row_at(at.y())
-        if row is not None:
-            self.session.set_layer(self._rows()[row].id)
-        if at.x() < HEADER - DIAMOND:
-            return
-        key = self._key_under(at)
-        if key is not None:
-            self._held = key[1]
-            self.session.go_to(key[1])
-        else:
-            self._scrubbing = True
-            self.session.go_to(self.frame_at(at.x()))
-
-    def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        at = event.position()
-        if self._scrubbing:
-            self.session.go_to(self.frame_at(at.x()))
-        elif self._held is not None and (self._gesture or abs(at.x() - self._press_x) > 4):
-            self._drag_key(max(1, self.frame_at(at.x())))
-        else:
-            self._hover(at)
-
-    def _hover(self, at: QPointF) -> None:
-        hover = self._key_under(at)
-        tip = f"Keyframe at frame {hover[1]}: drag to move it" if hover else self._problem_under(at)
-        if tip != self.toolTip():
-            self.setToolTip(tip)
-        if hover != self._hover_key:
-            self._hover_key = hover
-            self.setCursor(Qt.CursorShape.SizeHorCursor if hover else Qt.CursorShape.ArrowCursor)
+        if event.button() == Qt.MouseButton.LeftButton:
+            self._drag = self._begun(event.position(), event.modifiers())
             self.update()
 
-    def _problem_under(self, at: QPointF) -> str:
-        """Return the sentence of the worst problem of the frame under the pointer, "" where there is none."""
-        row = self._row_at(at.y())
-        if row is None or abs(self.row_rect(row).center().y() - at.y()) > BAR + 4:
-            return ""
-        frame = self.frame_at(at.x())
-        before, after = self._rows()[row].around(frame)
-        certificate = self.certificates.of(before, after) if before and after else None
-        problem = certificate.worst.get(frame) if certificate else None
-        return f"Frame {frame}: {finding(problem)}" if problem else ""
+    def _begun(self, at: QPointF, held: Qt.KeyboardModifier) -> Drag | None:
+        row = self.view.row_at(at.y())
+        if row is not None:
+            self.session.set_layer(self.view.rows[row].id)
+        if at.x() < HEADER:
+            return self._press_head(at)
+        if at.y() < RULER:
+            return self._press_ruler(at, held)
+        key = self.view.key_under(at)
+        if key is not None:
+            return self._press_key(at, key, held)
+        grip = self._spot.grip(at)
+        if grip is not None:
+            return StretchKeys(self, at, last=grip == 1)
+        return Band(self, at, self._spot.goal(at), adds=bool(held & (SHIFT | CTRL)))
 
-    def _drag_key(self, to: int) -> None:
-        if self._gesture is None:
-            self._gesture = self.session.begin("Move Keyframe")
-        layer_id, held = self.session.layer.id, self._held
-        taken = {k.frame for k in self._gesture.document.layer(layer_id).keyframes} - {held}
-        if to in taken:
-            return  # it stays beside the keyframe that it was dragged onto
-        if self._gesture.update(lambda d: move_keyframe(d, layer_id, held, to)):
-            self.session.go_to(to)
+    def _press_ruler(self, at: QPointF, held: Qt.KeyboardModifier) -> Drag:
+        edge = range_edge_under(self.view, at)
+        if edge:
+            return SetRange(self, at, self.session.range[0 if edge == "last" else 1])
+        if held & SHIFT:
+            length = self.session.document.length
+            return SetRange(self, at, min(max(self.view.frame_at(at.x()), 1), length))
+        return Scrub(self, at)
+
+    def _press_key(self, at: QPointF, key: KeyRef, held: Qt.KeyboardModifier) -> Drag | None:
+        if held & CTRL:
+            self.keys.toggle(key)
+        elif held & SHIFT:
+            self.keys.choose(self.keys.chosen | self._up_to(key))
+        elif key not in self.keys.chosen:
+            self.keys.choose({key})
+        if held & (CTRL | SHIFT):
+            self.session.go_to(key[1])
+            return None
+        return MoveKeys(self, at, key)
+
+    def _up_to(self, key: KeyRef) -> set[KeyRef]:
+        """Return the keyframes from the selected ones of that layer up to this one."""
+        layer_id, frame = key
+        here = [f for i, f in self.keys.chosen if i == layer_id] or [frame]
+        low, high = min(frame, *here), max(frame, *here)
+        return {(layer_id, f) for f in self.session.document.layer(layer_id).frames() if low <= f <= high}
+
+    def _press_head(self, at: QPointF) -> Drag | None:
+        under = track_header.part_under(self.view, at)
+        if under is None:
+            return None
+        layer, part = self.view.rows[under[0]], under[1]
+        if part == "name":
+            return MoveLayer(self, at, layer.id)
+        if part == "solo":
+            self.session.set_solo(self.session.solo ^ {layer.id})
+        else:
+            self.session.apply(*track_header.switched(layer, part))
+        return None
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        if self._drag is not None:
+            self._drag.move(event.position())
+        else:
+            self._hover(event.position())
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        self._end_drag(keep=True)
+        drag, self._drag = self._drag, None
+        if drag is not None:
+            drag.release(event.position())
+            self.update()
 
-    def _end_drag(self, *, keep: bool) -> None:
-        gesture, self._gesture = self._gesture, None
-        held, self._held, self._scrubbing = self._held, None, False
-        if gesture is not None:
-            if keep:
-                gesture.commit()
-            else:
-                gesture.cancel()
-                self.session.go_to(held)
+    def tell_problem(self, at: QPointF) -> None:
+        """Say where the problem is that a click here leads to, if there is one."""
+        problem = self._spot.problem(at)
+        if problem is not None:
+            self.problemChosen.emit(problem.place, SEVERITY_COLORS[problem.severity])
 
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        if event.key() == Qt.Key.Key_Escape and self._gesture is not None:
-            self._end_drag(keep=False)
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        under = track_header.part_under(self.view, event.position())
+        if under is not None and under[1] == "name":
+            self.rename(self.view.rows[under[0]].id)
         else:
-            super().keyPressEvent(event)
+            self.mousePressEvent(event)
+
+    def rename(self, layer_id: int) -> None:
+        """Let a layer's name be changed in its place."""
+        row = self.view.row_of(layer_id)
+        self.view.show_row(row)
+        name = self.session.document.layer(layer_id).name
+
+        def done(text: str) -> None:
+            self.session.apply("Rename Layer", set_layer, layer_id, name=text)
+
+        self.name_field = NameField(self, track_header.name_rect(self.view.row_rect(row)), name, done)
+
+    def _hover(self, at: QPointF) -> None:
+        key, part = self.view.key_under(at), track_header.part_under(self.view, at)
+        tip = self._spot.tip(at, key, part)
+        if tip != self.toolTip():
+            self.setToolTip(tip)
+        if (key, part) != (self.hover_key, self.hover_part):
+            self.hover_key, self.hover_part = key, part
+            self.refresh()
+        wide = key is not None or self._spot.edge(at)
+        self.setCursor(Qt.CursorShape.SizeHorCursor if wide else Qt.CursorShape.ArrowCursor)
+
+    def leaveEvent(self, _: object) -> None:
+        self.hover_key = self.hover_part = None
+        self.refresh()
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         at = QPointF(event.pos())
-        row = self._row_at(at.y())
+        row = self.view.row_at(at.y())
         if row is not None:
-            self.session.set_layer(self._rows()[row].id)
-        key = self._key_under(at)
-        frame = key[1] if key else self.frame_at(at.x())
-        self.session.go_to(frame)
-        self.menuWanted.emit(frame, event.globalPos())
+            self.session.set_layer(self.view.rows[row].id)
+        if at.x() < HEADER:
+            menu = track_menus.layer_menu(self) if row is not None else None
+        elif at.y() < RULER:
+            menu = track_menus.ruler_menu(self)
+        else:
+            self._aim(at)
+            menu = track_menus.key_menu(self)
+        if menu is not None:
+            menu.popup(event.globalPos())
+
+    def _aim(self, at: QPointF) -> None:
+        """Go to what a menu is asked for; a keyframe outside the selection becomes it."""
+        key = self.view.key_under(at)
+        if key is not None and key not in self.keys.chosen:
+            self.keys.choose({key})
+        elif key is None:
+            self.keys.choose(())
+        self.session.go_to(key[1] if key else self.view.frame_at(at.x()))
 
     def wheelEvent(self, event: QWheelEvent) -> None:
-        delta = event.angleDelta()
-        whole_width = (self.session.document.length - 1) * self.step + RIGHT
-        self._left = self._clipped(self._left - (delta.x() or delta.y()) / 2, whole_width - self.width() + HEADER)
-        if not delta.x():
-            rows = RULER + len(self._rows()) * ROW
-            self._top = self._clipped(self._top - delta.y() / 3, rows - self.height())
-        self.update()
+        delta, held = event.angleDelta(), event.modifiers()
+        if held & CTRL:
+            self.view.zoom_at(event.position().x(), 1.2 ** (delta.y() / 120))
+        elif delta.x() or held & SHIFT or not self.view.most_top:
+            self.view.scroll(-(delta.x() or delta.y()) / 2, 0)
+        else:
+            self.view.scroll(0, -delta.y() / 3)
+        self._show_scroll()
         event.accept()
 
-    @staticmethod
-    def _clipped(value: float, most: float) -> float:
-        return min(max(value, 0.0), max(most, 0.0))
+    # keys
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Escape and self._drag is not None:
+            drag, self._drag = self._drag, None
+            drag.cancel()
+            self.update()
+        elif event.key() == Qt.Key.Key_Escape and self.keys.chosen:
+            self.keys.choose(())
+        elif event.key() in (Qt.Key.Key_Up, Qt.Key.Key_Down):
+            row = self.view.row_of(self.session.layer.id) + (1 if event.key() == Qt.Key.Key_Down else -1)
+            if 0 <= row < len(self.view.rows):
+                self.session.set_layer(self.view.rows[row].id)
+        else:
+            super().keyPressEvent(event)
+
+    # what changes
 
     def _on_document_changed(self, diff: DocumentDiff) -> None:
         """Paint again only what shows here: of a drag of a vertex only that the certificate is gone."""
-        shown = _shown(diff.before), _shown(diff.after)
-        if diff.frame_range or shown[0] != shown[1] or self._certificates() != self._painted:
-            self.update()
+        layers = diff.layers
+        order = [x.id for x in diff.before.layers] != [x.id for x in diff.after.layers]
+        if order or diff.frame_range or _shown(diff.before, layers) != _shown(diff.after, layers):
+            self._show_scroll()
+        elif self._certificates() != self._painted:
+            self.refresh()
 
     def _on_frame_changed(self, frame: int) -> None:
-        x = self.x_of(frame)
-        if x < HEADER:
-            self._left = max(0.0, self._left - (HEADER - x) - 40)
-        elif x > self.width() - RIGHT / 2:
-            self._left += x - self.width() + RIGHT / 2 + 40
-        if (self.session.document.length - 1) * self.step <= self.width() - HEADER - RIGHT + 1:
-            self._left = 0.0
-        self.update()
+        left = self.view.left
+        self.view.show(frame)
+        if self.view.left == left:
+            self.update()
+        else:
+            self._show_scroll()
+
+    def _on_layer_changed(self) -> None:
+        self.view.show_row(self.view.row_of(self.session.layer.id))
+        self._show_scroll()
+
+    def fit(self) -> None:
+        """Show all frames."""
+        self.view.fit()
+        self._show_scroll()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self.view.width, self.view.height = self.width(), self.height()
+        self._show_scroll()
+        super().resizeEvent(event)
+
+    def _scroll_to(self, left: float, top: float) -> None:
+        if (round(self.view.left), round(self.view.top)) != (round(left), round(top)):
+            self.view.left, self.view.top = left, top
+            self.refresh()
+
+    def _show_scroll(self) -> None:
+        """Bring the scroll bars in line with what is shown, and paint."""
+        view = self.view
+        view.clip()
+        bars = ((self.across, view.most_left, view.left, view.room), (self.down, view.most_top, view.top, ROW * 3))
+        for bar, most, value, page in bars:
+            bar.setRange(0, round(most))
+            bar.setPageStep(round(page))
+            bar.setValue(round(value))
+            bar.setVisible(most >= 1)
+        self.across.setGeometry(QRect(HEADER, self.height() - BARELY, self.width() - HEADER - BARELY, BARELY))
+        self.down.setGeometry(QRect(self.width() - BARELY, RULER, BARELY, self.height() - RULER - BARELY))
+        self.refresh()
 
     def _certificates(self) -> list[SpanCertificate | None]:
-        return [self.certificates.of(*pair) for layer in self._rows() for pair in pairwise(layer.keyframes)]
+        keyframes = self.session.layer.keyframes
+        return [self.certificates.of(*pair) for pair in pairwise(keyframes)]
 
     # painting
 
+    def refresh(self) -> None:
+        """Paint everything anew; `update` paints only the active row and the playhead over the rest."""
+        self._picture = None
+        self.update()
+
     def paintEvent(self, _: object) -> None:
-        self._painted = self._certificates()
+        if self._picture is None or self._picture.size() != self.size() * self.devicePixelRatio():
+            self._painted = self._certificates()
+            self._picture = whole_picture(self)
+        view, theme = self.view, self.theme
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.fillRect(self.rect(), self.theme.color("panel"))
-        for row, layer in enumerate(self._rows()):
-            self._paint_row(painter, row, layer)
-        painter.fillRect(QRectF(0, 0, self.width(), RULER), self.theme.color("panel"))
-        self._paint_ruler(painter)
-        self._paint_playhead(painter)
+        painter.drawPixmap(0, 0, self._picture)
+        painter.setClipRect(QRectF(HEADER, RULER, self.width(), self.height()))
+        rows = RowPainter(painter, view, theme, self.certificates)
+        rows.paint(view.row_of(self.session.layer.id), self.session.layer, self.keys.chosen, self.hover_key)
+        rows.paint_grips(self.keys.chosen)
+        painter.setClipRect(QRectF(HEADER, 0, self.width(), self.height()))
+        paint_playhead(painter, view, theme, small_font(self.font(), bold=True))
+        painter.setClipping(False)
+        if self._drag is not None:
+            self._drag.paint(painter)
         painter.end()
-
-    def _paint_ruler(self, painter: QPainter) -> None:
-        length, theme = self.session.document.length, self.theme
-        font = QFont(self.font())
-        font.setPixelSize(11)
-        painter.setFont(font)
-        first, last = max(1, self.frame_at(HEADER)), min(length, self.frame_at(self.width()))
-        each = next((n for n in SELDOM if n * self.step >= 44), SELDOM[-1])
-        fine = next((n for n in SELDOM if n * self.step >= 6), SELDOM[-1])
-        for frame in range(first, last + 1):
-            numbered = frame == 1 or frame % each == 0 or frame == length
-            if not numbered and frame % fine:
-                continue
-            x = self.x_of(frame)
-            painter.setPen(QPen(theme.color("muted" if numbered else "line"), 1))
-            painter.drawLine(QPointF(x, RULER - (8 if numbered else 5)), QPointF(x, RULER - 1))
-            crowded = frame == length and frame % each and (frame % each) * self.step < 26
-            if numbered and not crowded:
-                painter.drawText(QRectF(x - 24, 4, 48, 18), int(Qt.AlignmentFlag.AlignCenter), str(frame))
-
-    def _paint_row(self, painter: QPainter, row: int, layer: Layer) -> None:
-        theme, rect = self.theme, self.row_rect(row)
-        active = layer.id == self.session.layer.id
-        if active:
-            painter.fillRect(rect, theme.color("raised"))
-        painter.save()
-        painter.setClipRect(QRectF(HEADER - DIAMOND - 3, rect.top(), self.width(), ROW))
-        self._paint_spans(painter, rect, layer, active)
-        painter.restore()
-        font = QFont(self.font())
-        font.setBold(active)
-        painter.setFont(font)
-        painter.setPen(theme.color("text" if active else "muted"))
-        name = painter.fontMetrics().elidedText(layer.name, Qt.TextElideMode.ElideRight, HEADER - 32)
-        painter.drawText(rect.adjusted(18, 0, 0, 0), int(Qt.AlignmentFlag.AlignVCenter), name)
-
-    def _paint_spans(self, painter: QPainter, rect: QRectF, layer: Layer, active: bool) -> None:
-        theme, y = self.theme, rect.center().y()
-        here = {k.frame for k in self.session.span_keyframes() if k is not None} if active else set()
-        for k, following in pairwise(layer.keyframes):
-            chosen = {k.frame, following.frame} <= here
-            self._paint_bar(painter, y, k, following, chosen=chosen)
-            if self.step >= 8:
-                painter.setPen(
-                    QPen(theme.color("panel", 0.9), 2.2, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap)
-                )
-                painter.drawPoints(
-                    QPolygonF([QPointF(self.x_of(f), y) for f in range(k.frame + 1, following.frame)])
-                )
-        for k in layer.keyframes:
-            self._paint_diamond(painter, QPointF(self.x_of(k.frame), y), (layer.id, k.frame))
-
-    def _paint_bar(self, painter: QPainter, y: float, before: Keyframe, after: Keyframe, *, chosen: bool) -> None:
-        """Paint a span in the colours of its certificate, or, while it has none, in the accent."""
-        certificate = self.certificates.of(before, after)
-        x0, x1 = self.x_of(before.frame), self.x_of(after.frame)
-        token, strength = ("good", (0.65, 0.4)) if certificate else ("accent", (0.55, 0.28))
-        color = self.theme.color(token, strength[0 if chosen else 1])
-        painter.fillRect(QRectF(x0, y - BAR, x1 - x0, 2 * BAR), color)
-        for first, last, severity in certificate.runs if certificate else ():
-            if SEVERITY_COLORS[severity] != "good":
-                left, right = self.x_of(first - 0.5), self.x_of(last + 0.5)
-                rect = QRectF(left, y - BAR, right - left, 2 * BAR)
-                painter.fillRect(rect, self.theme.color("panel"))
-                painter.fillRect(rect, self.theme.color(SEVERITY_COLORS[severity], 0.95 if chosen else 0.7))
-
-    def _paint_diamond(self, painter: QPainter, at: QPointF, key: tuple[int, int]) -> None:
-        theme = self.theme
-        r = DIAMOND + (1.5 if key == self._hover_key else 0)
-        current = key == (self.session.layer.id, self.session.frame)
-        painter.setPen(QPen(theme.color("accent" if current else "panel"), 1.6))
-        painter.setBrush(theme.color("text"))
-        painter.drawPolygon(
-            QPolygonF([at + QPointF(0, -r), at + QPointF(r, 0), at + QPointF(0, r), at + QPointF(-r, 0)])
-        )
-
-    def _paint_playhead(self, painter: QPainter) -> None:
-        theme, frame = self.theme, self.session.frame
-        x = self.x_of(frame)
-        if x < HEADER - 1:
-            return
-        painter.setPen(QPen(theme.color("accent"), 1.8))
-        painter.drawLine(QPointF(x, 22), QPointF(x, self.height()))
-        text = str(frame)
-        width = max(26.0, painter.fontMetrics().horizontalAdvance(text) + 14)
-        badge = QRectF(x - width / 2, 3, width, 19)
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(theme.color("accent"))
-        painter.drawRoundedRect(badge, 5, 5)
-        font = QFont(self.font())
-        font.setPixelSize(11)
-        font.setBold(True)
-        painter.setFont(font)
-        painter.setPen(theme.color("accent_text"))
-        painter.drawText(badge, int(Qt.AlignmentFlag.AlignCenter), text)

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from app.preview.spans import SpanPreview, SpanRef
+from app.preview.spans import SpanPreview
+from app.preview.tasks import SpanRef
 from app.preview.worker import NewestWins
 from core.correspondence.by_hand import mean_shift
 from core.correspondence.matching import Alternative, alternatives

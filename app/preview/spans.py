@@ -1,25 +1,35 @@
 """Plans of spans for the canvas: at once with what is known, better as soon as the worker has solved it."""
 
 import threading
-import time
 from collections import OrderedDict
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable
+from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
 from PySide6.QtCore import QObject, QTimer, Signal
 
+from app.preview.tasks import (
+    Planned,
+    PlanTask,
+    Progress,
+    Solved,
+    SolvedAhead,
+    SpanRef,
+    Task,
+    solve_all,
+    solve_plan,
+    unseen,
+)
 from app.preview.worker import NewestWins
-from core.correspondence.matching import match, match_quick
 from core.correspondence.pairing import Correspondence
-from core.errors import CancelledError, InkbetweenError
 from core.geometry.outline import FloatArray, perimeter
 from core.model.document import Document, Keyframe, Span
 from core.model.drawing import Drawing, Outline
 from core.model.edits import store_answer
-from core.model.inbetweens import PairMatch, Rows, SpanMatch, SpanPlan, paired_outlines, plan_span
+from core.model.inbetweens import Rows, SpanPlan, paired_outlines
 from core.model.motion import Motions
 
 PAUSE_MS = 40
@@ -35,100 +45,9 @@ KEPT_BESIDE = 3
 
 MOST_KEPT = 1024
 
-Progress = Callable[[float], None]
 Pairs = tuple[tuple[int, int], ...]
-SpanRef = tuple[int, int]
-"""The id of a layer, and the frame that a span of it begins at."""
-
 PairRef = tuple[SpanRef, int, int]
 """A span, and the ids of two of its outlines."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Task:
-    """Two outlines to be matched, the span they belong to and the frame that it ends at."""
-
-    before: Outline
-    after: Outline
-    anchors: tuple[tuple[float, float], ...]
-    span: SpanRef
-    end: int
-    kept: Correspondence | None = None
-
-    @property
-    def closed(self) -> bool:
-        return self.before.closed and self.after.closed
-
-    def key(self) -> tuple[object, ...]:
-        return id(self.before), id(self.after), self.anchors, id(self.kept)
-
-    def likeness(self) -> tuple[object, ...]:
-        """Equal for tasks whose vertices can share a correspondence."""
-        a, b = self.before, self.after
-        return self.span, self.end, a.id, b.id, len(a.points), len(b.points), a.closed, b.closed
-
-    def solve(self) -> Correspondence:
-        """Return the kept correspondence, or the solver's answer."""
-        if self.kept is not None:
-            return self.kept
-        return match(self.before.points, self.after.points, self.anchors, closed=self.closed)
-
-    def solve_quickly(self, near: Correspondence | None) -> Correspondence:
-        return match_quick(self.before.points, self.after.points, self.anchors, closed=self.closed, near=near)
-
-    def rows(self, correspondence: Correspondence) -> Rows:
-        return correspondence.aligned_positions(self.before.points, self.after.points)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Solved:
-    """A task's answer; `rows` are worked out once and hold while vertices are only moved."""
-
-    task: _Task
-    correspondence: Correspondence
-    rows: Rows
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _PlanTask:
-    """A span to be planned, with its solved correspondences."""
-
-    layer: int
-    before: Keyframe
-    after: Keyframe
-    span: Span
-    solved: tuple[_Solved, ...]
-
-    @property
-    def ref(self) -> SpanRef:
-        return self.layer, self.before.frame
-
-    @property
-    def key(self) -> tuple[object, ...]:
-        drawings, s = (id(self.before.drawing), id(self.after.drawing)), self.span
-        return *drawings, s.method, s.turns, s.repair, s.placement, s.pins, *(id(x) for x in self.solved)
-
-    def likeness(self) -> tuple[object, ...]:
-        """Equal for plans that take about as long."""
-        return self.span.method, self.span.repair, *(x.task.likeness() for x in self.solved)
-
-    def solve(self, progress: Progress | None = None, cancelled: Callable[[], bool] | None = None) -> "_Planned":
-        began = time.perf_counter()
-        pairs = (PairMatch(s.task.before.id, s.task.after.id, s.correspondence, s.rows) for s in self.solved)
-        match = SpanMatch(tuple(pairs))
-        plan = plan_span(
-            self.before.drawing, self.after.drawing, self.span, match, progress=progress, cancelled=cancelled
-        )
-        return _Planned(self, plan, time.perf_counter() - began)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Planned:
-    """A plan; it keeps its task, so that no other object can take the ids in its key."""
-
-    task: _PlanTask
-    plan: SpanPlan
-    seconds: float
 
 
 class _Active:
@@ -150,17 +69,19 @@ class SpanPreview(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.motions = Motions(_Active(self))
-        self._exact: OrderedDict[object, _Solved] = OrderedDict()
-        self._alike: OrderedDict[object, _Solved] = OrderedDict()
-        self._plans: OrderedDict[object, _Planned] = OrderedDict()
-        self._slow: dict[SpanRef, _PlanTask] = {}
-        self._planning: _PlanTask | None = None
+        self._exact: OrderedDict[object, Solved] = OrderedDict()
+        self._alike: OrderedDict[object, Solved] = OrderedDict()
+        self._plans: OrderedDict[object, Planned] = OrderedDict()
+        self._slow: dict[SpanRef, PlanTask] = {}
+        self._ahead: OrderedDict[SpanRef, tuple[Keyframe, Keyframe]] = OrderedDict()
+        self._planning: PlanTask | None = None
         self._seconds: dict[object, float] = {}
         self._cancel = threading.Event()
         self._pairs: OrderedDict[object, tuple[object, Pairs]] = OrderedDict()
-        self._wanted: OrderedDict[object, _Task] = OrderedDict()
+        self._wanted: OrderedDict[object, Task] = OrderedDict()
         self._trial: tuple[PairRef, Correspondence] | None = None
-        self._coarse: tuple[_Solved, bool, _Solved] | None = None
+        self._tried: tuple[int, int, str] | None = None
+        self._coarse: tuple[Solved, bool, Solved] | None = None
         self._worker = NewestWins(self)
         self._worker.finished.connect(self._on_solved)
         self._planner = NewestWins(self)
@@ -187,7 +108,8 @@ class SpanPreview(QObject):
         While a slow one (rigid, auto, a repair) is being solved, it is intrinsic's, or that of the method without
         the repair; `waiting` tells.
         """
-        span = before.span if method is None else replace(before.span, method=method)
+        named = method or self.tried_method(before, layer)
+        span = before.span if named is None else replace(before.span, method=named)
         wanted = self._wanted_plan(before, after, layer, span)
         found = self._plans.get(wanted.key)
         if found is None and self._is_quick(wanted):
@@ -205,6 +127,33 @@ class SpanPreview(QObject):
         _touch(self._plans, wanted.key)
         return found.plan
 
+    def prepare(self, spans: Iterable[tuple[int, Keyframe, Keyframe]]) -> None:
+        """Have spans that are not seen yet, (layer, before, after), solved while nothing else is asked for."""
+        self._ahead = OrderedDict(((layer, before.frame), (before, after)) for layer, before, after in spans)
+        self._pause.start()
+
+    def _solve_ahead(self) -> None:
+        """Give a worker the next span that lacks something."""
+        while self._ahead:
+            (layer, _), (before, after) = next(iter(self._ahead.items()))
+            missing = [
+                t for t in self._tasks(before, after, layer) if t.kept is None and t.key() not in self._exact
+            ]
+            if missing:
+                self._worker.submit(partial(SolvedAhead.of, tuple(missing)))
+                return
+            wanted = self._wanted_plan(before, after, layer, before.span)
+            if not (wanted.key in self._plans or self._is_quick(wanted) or before.span.hold):
+                self._start_planning(wanted, unseen)
+                return
+            self._ahead.popitem(last=False)
+
+    def _start_planning(self, wanted: PlanTask, progress: Progress) -> None:
+        self._cancel.set()  # of what is solved now, the span has changed since
+        self._cancel = cancel = threading.Event()
+        self._planning = wanted
+        self._planner.submit(partial(solve_plan, wanted, progress, cancel.is_set))
+
     def waiting(self, before: Keyframe, layer: int) -> bool:
         """Whether what is shown of the span that begins here stands in for a plan that is being solved."""
         return (layer, before.frame) in self._slow
@@ -215,18 +164,18 @@ class SpanPreview(QObject):
         _touch(self._plans, wanted.key)
         return found.plan
 
-    def _wanted_plan(self, before: Keyframe, after: Keyframe, layer: int, span: Span) -> "_PlanTask":
+    def _wanted_plan(self, before: Keyframe, after: Keyframe, layer: int, span: Span) -> "PlanTask":
         solved = tuple(self._solved(task) for task in self._tasks(before, after, layer))
-        return _PlanTask(layer, before, after, span, solved)
+        return PlanTask(layer, before, after, span, solved)
 
-    def _is_quick(self, wanted: "_PlanTask") -> bool:
+    def _is_quick(self, wanted: "PlanTask") -> bool:
         """Whether a plan can be made between two frames of a drag: as the last one like it could."""
         span = wanted.span
         if span.repair:
             return False
         return span.method in QUICK_METHODS or self._seconds.get(wanted.likeness(), 1.0) < QUICK_SECONDS
 
-    def _keep_plan(self, made: "_Planned") -> "_Planned":
+    def _keep_plan(self, made: "Planned") -> "Planned":
         self._plans[made.task.key] = made
         self._seconds[made.task.likeness()] = made.seconds
         return made
@@ -253,10 +202,21 @@ class SpanPreview(QObject):
             self._trial = trial
             self.planned.emit()
 
+    def try_method(self, before: Keyframe | None, layer: int = 0, method: str = "") -> None:
+        """Show a span's in-betweens by another method for a while, or, without a keyframe, by its own again."""
+        tried = (layer, before.frame, method) if before is not None and method != before.span.method else None
+        if tried != self._tried:
+            self._tried = tried
+            self.planned.emit()
+
+    def tried_method(self, before: Keyframe, layer: int) -> str | None:
+        """Return the method that the span beginning here is shown by for a while, if it is not its own."""
+        return self._tried[2] if self._tried is not None and self._tried[:2] == (layer, before.frame) else None
+
     @property
     def trying(self) -> bool:
-        """Whether another correspondence is shown for a while."""
-        return self._trial is not None
+        """Whether another correspondence or method is shown for a while."""
+        return self._trial is not None or self._tried is not None
 
     def with_answers(self, document: Document) -> Document:
         """Return the document with every answer of the solver that is known stored in its spans.
@@ -272,7 +232,7 @@ class SpanPreview(QObject):
                         document = store_answer(document, layer.id, before.frame, *ids, solved.correspondence)
         return document
 
-    def _tasks(self, before: Keyframe, after: Keyframe, layer: int) -> list[_Task]:
+    def _tasks(self, before: Keyframe, after: Keyframe, layer: int) -> list[Task]:
         tasks, span = [], (layer, before.frame)
         for i, j in self._paired(before.drawing, after.drawing, before):
             made = before.span.pair_of(i, j)
@@ -280,7 +240,7 @@ class SpanPreview(QObject):
             if self._trial is not None and self._trial[0] == (span, i, j):
                 kept = self._trial[1]
             a, b = before.drawing.outline(i), after.drawing.outline(j)
-            tasks.append(_Task(a, b, made.held if made else (), span, after.frame, kept))
+            tasks.append(Task(a, b, made.held if made else (), span, after.frame, kept))
         return tasks
 
     def _paired(self, before: Drawing, after: Drawing, keyframe: Keyframe) -> Pairs:
@@ -291,7 +251,7 @@ class SpanPreview(QObject):
         _touch(self._pairs, key)
         return found[1]
 
-    def _solved(self, task: _Task) -> _Solved:
+    def _solved(self, task: Task) -> Solved:
         """Return the exact answer, or else the last one for outlines alike, and ask the worker for the exact."""
         exact = self._exact.get(task.key())
         if exact is not None:
@@ -299,7 +259,7 @@ class SpanPreview(QObject):
             return exact
         alike = self._alike.get(task.likeness())
         if task.kept is not None:
-            return self._keep_exact(_Solved(task, task.kept, self._kept_rows(task, alike)))
+            return self._keep_exact(Solved(task, task.kept, self._kept_rows(task, alike)))
         waiting = self._wanted.get(task.likeness())
         if waiting is None or waiting.key() != task.key():
             self._wanted[task.likeness()] = task  # of two steps of one drag only the last is worth solving
@@ -307,9 +267,9 @@ class SpanPreview(QObject):
         if alike is not None and alike.task.anchors == task.anchors:
             return self._thinner(alike, task)
         quick = task.solve_quickly(alike.correspondence if alike else None)
-        return self._keep_alike(_Solved(task, quick, task.rows(quick)))
+        return self._keep_alike(Solved(task, quick, task.rows(quick)))
 
-    def _thinner(self, alike: _Solved, task: _Task) -> _Solved:
+    def _thinner(self, alike: Solved, task: Task) -> Solved:
         """Leave out, while a huge outline is dragged, the images of the other one's vertices: nobody sees them."""
         p, q = alike.rows
         if len(p) <= MOST_DRAGGED_ROWS:
@@ -321,18 +281,18 @@ class SpanPreview(QObject):
             self._coarse = alike, before_moves, replace(alike, rows=(p[kept], q[kept]))
         return self._coarse[2]
 
-    def _kept_rows(self, task: _Task, alike: _Solved | None) -> Rows:
+    def _kept_rows(self, task: Task, alike: Solved | None) -> Rows:
         """Walk along both outlines only when the correspondence is a new one."""
         if alike is not None and alike.correspondence is task.kept:
             return alike.rows
         return task.rows(task.solve())
 
-    def _keep_exact(self, solved: _Solved) -> _Solved:
+    def _keep_exact(self, solved: Solved) -> Solved:
         self._exact[solved.task.key()] = solved
         _touch(self._exact, solved.task.key())
         return self._keep_alike(solved)
 
-    def _keep_alike(self, solved: _Solved) -> _Solved:
+    def _keep_alike(self, solved: Solved) -> Solved:
         self._alike[solved.task.likeness()] = solved
         _touch(self._alike, solved.task.likeness())
         return solved
@@ -340,12 +300,11 @@ class SpanPreview(QObject):
     def _on_paused(self) -> None:
         tasks = tuple(self._wanted.values())
         if tasks:
-            self._worker.submit(lambda: _solve(tasks))
+            self._worker.submit(lambda: solve_all(tasks))
         elif self._slow and self._planning not in self._slow.values():
-            self._cancel.set()  # of what is solved now, the span has changed since
-            self._cancel = cancel = threading.Event()
-            self._planning = wanted = next(reversed(self._slow.values()))
-            self._planner.submit(lambda: _plan(wanted, self.progressed.emit, cancel.is_set))
+            self._start_planning(next(reversed(self._slow.values())), self.progressed.emit)
+        elif not self._slow and self._planner.idle and self._worker.idle:
+            self._solve_ahead()
 
     def cancel_slow(self) -> None:
         """Stop solving; it begins again with the next plan that is asked for."""
@@ -356,21 +315,25 @@ class SpanPreview(QObject):
     def _on_solved(self, result: object) -> None:
         if isinstance(result, Exception):
             raise result
-        if isinstance(result, list):
+        if isinstance(result, SolvedAhead):
+            for solved in result.solved:
+                self._keep_exact(solved)
+            self._pause.start()
+        elif isinstance(result, list):
             for solved in result:
                 self._keep_exact(solved)
                 waiting = self._wanted.get(solved.task.likeness())
                 if waiting is not None and waiting.key() == solved.task.key():
                     del self._wanted[solved.task.likeness()]
             self.planned.emit()
-            if self._slow:
+            if self._slow or self._ahead:
                 self._pause.start()
 
     def _on_planned(self, result: object) -> None:
         if isinstance(result, Exception):
             self._planning = None
             raise result
-        if isinstance(result, _Planned):  # else it was cancelled, and what came after it is under way
+        if isinstance(result, Planned):  # else it was cancelled, and what came after it is under way
             self._keep_plan(result)
             _touch(self._plans, result.task.key)
             if self._planning is result.task:
@@ -378,16 +341,12 @@ class SpanPreview(QObject):
             waiting = self._slow.get(result.task.ref)
             if waiting is not None and waiting.key == result.task.key:
                 del self._slow[result.task.ref]
-            self.planned.emit()
-            if self._slow:
+            if result.task.ref in self._ahead and waiting is None:
+                del self._ahead[result.task.ref]  # nobody has seen the span yet
+            else:
+                self.planned.emit()
+            if self._slow or self._ahead:
                 self._pause.start()
-
-
-def _plan(task: "_PlanTask", progress: Progress, cancelled: Callable[[], bool]) -> "_Planned | None":
-    try:
-        return task.solve(progress, cancelled)
-    except CancelledError:
-        return None
 
 
 def _dragged_rows(positions: FloatArray, old: Outline, new: Outline) -> npt.NDArray[np.bool_]:
@@ -397,17 +356,6 @@ def _dragged_rows(positions: FloatArray, old: Outline, new: Outline) -> npt.NDAr
         moved |= np.roll(moved, 1) | np.roll(moved, -1)
     vertex = positions.astype(np.intp)
     return (positions == vertex) & ((vertex % 2 == 0) | moved[vertex % len(moved)])
-
-
-def _solve(tasks: tuple[_Task, ...]) -> list[_Solved]:
-    found = []
-    for task in tasks:
-        try:
-            correspondence = task.solve()
-        except InkbetweenError:
-            correspondence = task.solve_quickly(None)
-        found.append(_Solved(task, correspondence, task.rows(correspondence)))
-    return found
 
 
 def _touch(kept: OrderedDict, key: object) -> None:  # type: ignore[type-arg]

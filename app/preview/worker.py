@@ -1,6 +1,7 @@
 """One thread for slow work, with one pending place: a newer request takes the place of one that waits."""
 
 import threading
+import time
 from collections.abc import Callable
 
 from PySide6.QtCore import QObject, Signal
@@ -18,10 +19,12 @@ class NewestWins(QObject):
 
     finished = Signal(object)
 
-    def __init__(self, parent: QObject | None = None) -> None:
+    def __init__(self, parent: QObject | None = None, name: str = "preview") -> None:
         super().__init__(parent)
+        self._name = name
         self._wake = threading.Condition()
         self._pending: Request | None = None
+        self._due = 0.0
         self._running = False
         self._stopped = False
         self._thread: threading.Thread | None = None
@@ -32,14 +35,19 @@ class NewestWins(QObject):
         with self._wake:
             return self._pending is None and not self._running
 
-    def submit(self, request: Request) -> None:
-        """Run `request` as soon as the thread is free, unless a newer one comes first."""
+    def submit(self, request: Request, delay: float = 0.0) -> None:
+        """Run `request` as soon as the thread is free, unless a newer one comes first.
+
+        With `delay` it waits so many seconds for newer ones, which do not make it wait again.
+        """
         with self._wake:
             if self._stopped:
                 return
+            due = time.monotonic() + delay
+            self._due = due if self._pending is None else min(due, self._due)
             self._pending = request
             if self._thread is None:
-                self._thread = threading.Thread(target=self._loop, name="preview", daemon=True)
+                self._thread = threading.Thread(target=self._loop, name=self._name, daemon=True)
                 self._thread.start()
             self._wake.notify_all()
 
@@ -52,12 +60,16 @@ class NewestWins(QObject):
         if self._thread is not None:
             self._thread.join()
 
+    def _wait(self) -> float | None:
+        """How long there is nothing to do, in seconds; None: until something is submitted."""
+        return None if self._pending is None else max(0.0, self._due - time.monotonic())
+
     def _loop(self) -> None:
         while True:
             with self._wake:
                 self._running = False
-                while self._pending is None and not self._stopped:
-                    self._wake.wait()
+                while not self._stopped and (wait := self._wait()) != 0:
+                    self._wake.wait(wait)
                 if self._stopped:
                     return
                 request, self._pending, self._running = self._pending, None, True

@@ -31,7 +31,7 @@ TOLERANCE = 0.25
 FINE = 4000
 """A tolerance chosen by itself is at most this share of the longer side: an icon is to be enlarged."""
 
-MOST_VERTICES = 10_000_000
+MOST_VERTICES = 2_000_000
 MOST_REPEATED = 30_000
 ELEMENT = 40.0
 """What an element counts for the progress, besides the characters of its path."""

@@ -4,7 +4,7 @@ import functools
 import math
 import re
 from collections import defaultdict
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from xml.etree.ElementTree import Element
 
@@ -27,8 +27,6 @@ UNITS = {"in": INCH, "cm": INCH / 2.54, "mm": INCH / 25.4, "q": INCH / 101.6, "p
 UNITS |= {"em": 16.0, "rem": 16.0, "ex": 8.0}
 """px a unit; those of fonts as browsers begin."""
 
-_RULE = re.compile(r"([^{}]+)\{([^{}]*)\}")
-_REMARK = re.compile(r"/\*.*?\*/", re.DOTALL)
 _SELECTOR = re.compile(r"(\*|[\w-]+)?((?:[.#][\w-]+)*)")
 _URL = re.compile(r"url\(\s*['\"]?([^'\")]*)['\"]?\s*\)\s*(.*)", re.DOTALL)
 _MODERN = re.compile(r"((?:rgb|hsl)a?)\(\s*([^\s,]+)\s+([^\s,]+)\s+([^\s,/]+)\s*(?:/\s*([^\s)]+)\s*)?\)")
@@ -85,17 +83,20 @@ class Sheet:
 
     def __init__(self, note: Note) -> None:
         self._rules: dict[str, list[tuple[tuple[int, int], frozenset[str], Properties]]] = defaultdict(list)
+        self._known: dict[tuple[str, str, str], Properties] = {}
         self._count = 0
         self._note = note
 
     def add(self, text: str) -> None:
         """Read a style sheet."""
-        text = _REMARK.sub(" ", text)
+        self._known.clear()
+        text = _without_remarks(text)
         if "@import" in text.lower():
             raise FileFormatError("it takes its style sheet from another file; save it as a plain SVG")
-        for selectors, body in _RULE.findall(text):
+        for selectors, body in _rules(text):
+            properties = declarations(body)
             for selector in selectors.split(","):
-                self._add_rule(selector.strip(), declarations(body))
+                self._add_rule(selector.strip(), properties)
 
     def _add_rule(self, selector: str, properties: Properties) -> None:
         if selector.startswith("@"):  # fonts and the like
@@ -114,18 +115,51 @@ class Sheet:
         wanted = needed | ({name} if name not in (None, "*") else frozenset())
         self._rules[min(wanted, default="*")].append(((rank, self._count), wanted, properties))
 
+    def _ruled(self, element: Element) -> Properties:
+        """Return what the rules say of an element; the same for all with its name, classes and id."""
+        name, own = local_name(element), "#" + element.get("id", "")
+        key = (name, element.get("class", ""), own if own in self._rules else "")
+        if key not in self._known:
+            traits = {"*", name, own, *("." + c for c in key[1].split())}
+            fitting = [r for t in traits for r in self._rules.get(t, ()) if r[1] <= traits]
+            merged: Properties = {}
+            for _, _, properties in sorted(fitting, key=lambda r: r[0]):
+                merged |= properties
+            self._known[key] = merged
+        return self._known[key]
+
     def properties(self, element: Element) -> Properties:
         """Return what an element's attributes, the rules and its own style say, the last one winning."""
         found = {k: v.strip() for k, v in element.attrib.items() if k[0] != "{"}
         if self._rules:
-            traits = {"*", local_name(element), "#" + element.get("id", "")}
-            traits.update("." + c for c in element.get("class", "").split())
-            fitting = [r for t in traits for r in self._rules.get(t, ()) if r[1] <= traits]
-            for _, _, properties in sorted(fitting, key=lambda r: r[0]):
-                found |= properties
+            found |= self._ruled(element)
         if "style" in found:
             found |= declarations(found["style"])
         return found
+
+
+def _without_remarks(text: str) -> str:
+    """Take remarks away; by hand, as a pattern looks for the end of each one anew where it has none."""
+    parts = []
+    at = 0
+    while (start := text.find("/*", at)) >= 0:
+        parts.append(text[at:start])
+        end = text.find("*/", start + 2)
+        if end < 0:
+            return " ".join(parts)
+        at = end + 2
+    parts.append(text[at:])
+    return " ".join(parts)
+
+
+def _rules(text: str) -> Iterator[tuple[str, str]]:
+    """Yield what stands before each innermost pair of braces, and what stands in it."""
+    *pieces, _ = text.split("}")
+    for piece in pieces:
+        before, brace, body = piece.rpartition("{")
+        selectors = before[before.rfind("{") + 1 :]
+        if brace and selectors:
+            yield selectors, body
 
 
 def declarations(text: str) -> Properties:

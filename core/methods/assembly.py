@@ -8,7 +8,7 @@ import numpy as np
 from core.geometry.outline import FloatArray
 from core.methods.bridges import Bridge, connect
 from core.methods.headings import TURN, ComplexArray, Headings, headings, joined, shortest
-from core.methods.placement import Placement, place
+from core.methods.placement import Placement, centre, place
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,20 +37,21 @@ class Assembly:
 
 
 def assemble(
-    pairs: Sequence[tuple[FloatArray, FloatArray, bool]], *, turns: int = 0, bodies: Sequence[int] | None = None
+    pairs: Sequence[tuple[FloatArray, FloatArray, bool]],
+    *,
+    turns: int = 0,
+    bodies: Sequence[int] | None = None,
+    placement: str = "still",
 ) -> Assembly:
     """Return the outlines (left (k, 2), right (k, 2), closed), `turns` added to the shortest turn.
 
-    Outlines with the same number in `bodies` hang together first.
+    Outlines with the same number in `bodies` hang together first. `placement` is one of `PLACEMENTS`.
     """
-    a = _complex([left for left, _, _ in pairs])
-    b = _complex([right for _, right, _ in pairs])
-    rows = in_a_row([len(left) for left, _, _ in pairs])
+    a, b, rows, found, bridges = _connected(pairs, bodies)
     closed = tuple(c for _, _, c in pairs)
-    found = [headings(a[r], b[r], closed=c) for r, c in zip(rows, closed, strict=True)]
-    found, bridges = connect(a, b, rows, found, bodies)
     mean = joined(found).mean_turn()
     extra = shortest(mean) + TURN * turns
+    shares = _vertex_shares(found)
     return Assembly(
         a,
         b,
@@ -58,8 +59,27 @@ def assemble(
         closed,
         tuple(h.turned(extra) for h in found),
         tuple(bridge.turned(extra) for bridge in bridges),
-        place(a, b, _vertex_shares(found), mean + extra),
+        centre(a, b, rows, closed, shares) if placement == "centroid" else place(a, b, shares, mean + extra),
     )
+
+
+def natural_turn(pairs: Sequence[tuple[FloatArray, FloatArray, bool]]) -> float:
+    """Turn of the drawing as a whole without extra turns, radians in (-pi, pi]: the mean over its edges."""
+    if not pairs:
+        return 0.0
+    mean = joined(_connected(pairs, None)[3]).mean_turn()
+    return mean + shortest(mean)
+
+
+def _connected(
+    pairs: Sequence[tuple[FloatArray, FloatArray, bool]], bodies: Sequence[int] | None
+) -> tuple[ComplexArray, ComplexArray, tuple[slice, ...], list[Headings], list[Bridge]]:
+    """Return all vertices before and after, and how the outlines turn and hang together."""
+    a = _complex([left for left, _, _ in pairs])
+    b = _complex([right for _, right, _ in pairs])
+    rows = in_a_row([len(left) for left, _, _ in pairs])
+    found = [headings(a[r], b[r], closed=c) for r, (_, _, c) in zip(rows, pairs, strict=True)]
+    return a, b, rows, *connect(a, b, rows, found, bodies)
 
 
 def in_a_row(counts: Sequence[int]) -> tuple[slice, ...]:

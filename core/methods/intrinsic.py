@@ -132,7 +132,7 @@ class IntrinsicPaths:
         self._form(frames, t)
         for bridge in self.bridges:
             frames[:, bridge.carried] += bridge.shift(frames, t)[:, None]
-        frames += (self.placement.path(t) - frames @ self.placement.weights)[:, None]
+        frames += self.placement.shift(frames, t)[:, None]
 
     def _form(self, frames: ComplexArray, t: FloatArray) -> None:
         work = _Work.of(*frames.shape)

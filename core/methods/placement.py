@@ -1,11 +1,16 @@
-"""Where the frames of a drawing lie: what hardly moves between the keyframes stays still."""
+"""Where the frames of a drawing lie: what hardly moves stays still, or the centroid goes straight."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
-from core.geometry.outline import FloatArray
+from core.geometry.outline import FloatArray, contains
 from core.methods.headings import TURN, ComplexArray
+
+PLACEMENTS: tuple[str, ...] = ("still", "centroid")
+"""What can decide where frames lie: see `place` and `centre`. Pins come before both."""
 
 STILL = 0.02
 """Travel, as a share of the size of the drawing, below which a vertex counts as standing still."""
@@ -15,8 +20,23 @@ NEAR, FAR = 1.0, 4.0
 the centre, beyond FAR it is straight."""
 
 
+THIN = 1e-6
+"""Area, over the square of the extent, below which a drawing has no centroid of its own."""
+
+BARE, FULL = 0.05, 0.25
+"""Shares of the lesser keyframe's area: below BARE a frame's centroid is that of its outlines, from FULL on that
+of its area. A frame that a method has squeezed to a line has no other."""
+
+
+class Placement(Protocol):
+    """Where frames lie."""
+
+    def shift(self, frames: ComplexArray, t: FloatArray) -> ComplexArray:
+        """By how much the `frames` (T, n) must be moved at the times `t` (T,), as (T,) in px."""
+
+
 @dataclass(frozen=True, eq=False)
-class Placement:
+class Still:
     """The path of one reference point, a weighted mean of the vertices, from keyframe to keyframe.
 
     Attributes
@@ -38,6 +58,10 @@ class Placement:
     turn: float
     scale: float
 
+    def shift(self, frames: ComplexArray, t: FloatArray) -> ComplexArray:
+        """See `Placement`."""
+        return np.asarray(self.path(t) - frames @ self.weights, np.complex128)
+
     def path(self, t: FloatArray) -> ComplexArray:
         """Where the reference point is at the times `t` (T,): the chord, bent round the centre of rotation."""
         straight = np.asarray(self.before + t * (self.after - self.before), np.complex128)
@@ -48,8 +72,8 @@ class Placement:
         return bent
 
 
-def place(a: ComplexArray, b: ComplexArray, lengths: FloatArray, turn: float) -> Placement:
-    """Plan the placement of all vertices of a drawing.
+def place(a: ComplexArray, b: ComplexArray, lengths: FloatArray, turn: float) -> Still:
+    """Plan that what travels little stays still.
 
     Parameters
     ----------
@@ -76,7 +100,101 @@ def place(a: ComplexArray, b: ComplexArray, lengths: FloatArray, turn: float) ->
     arm *= agreement * _nearness(abs(arm) * np.sqrt(scale), extent)
     own = float(np.angle(similarity))
     own += TURN * np.rint((turn - own) / TURN)
-    return Placement(weights.astype(np.complex128), before, after, arm, own, scale)
+    return Still(weights.astype(np.complex128), before, after, arm, own, scale)
+
+
+@dataclass(frozen=True, eq=False)
+class Centroid:
+    """The centroid goes straight at even speed: that of the area, as a thrown thing does.
+
+    Attributes
+    ----------
+    weights : (n,) complex array
+        How much of the outlines each vertex stands for; sum 1.
+    filled : tuple of (slice, float)
+        The closed outlines, each with 1 or -1, so that its signed area counts as it is filled. None where the
+        drawing has no area in a keyframe, or is filled otherwise in the other: the outlines' centroid counts.
+    ends : (2, 2) complex array
+        Centroids of the outlines, and of the area, before and after, px.
+    area : float
+        The lesser one of the keyframes, px^2.
+    """
+
+    weights: ComplexArray
+    filled: tuple[tuple[slice, float], ...]
+    ends: ComplexArray
+    area: float
+
+    def shift(self, frames: ComplexArray, t: FloatArray) -> ComplexArray:
+        """See `Placement`."""
+        wanted = self.ends[:, :1] * (1 - t) + self.ends[:, 1:] * t
+        middle = frames @ self.weights
+        outline = wanted[0] - middle
+        if not self.filled:
+            return np.asarray(outline, np.complex128)
+        area, moment = _moments(frames - middle[:, None], self.filled)
+        x = np.clip((area / self.area - BARE) / (FULL - BARE), 0.0, 1.0)
+        trust = x * x * (3 - 2 * x)
+        inner = moment / np.where(trust > 0, area, 1.0)
+        return np.asarray(outline + trust * (wanted[1] - wanted[0] - inner), np.complex128)
+
+
+def centre(
+    a: ComplexArray, b: ComplexArray, rows: Sequence[slice], closed: Sequence[bool], lengths: FloatArray
+) -> Centroid:
+    """Plan that the centroid goes straight.
+
+    Parameters
+    ----------
+    a, b : (n,) complex array
+        Vertices of all outlines, px.
+    rows, closed
+        The outlines. Those inside others are holes (even-odd).
+    lengths : (n,) float array
+        How much of the outlines each vertex stands for; sum 1.
+    """
+    weights = lengths.astype(np.complex128)
+    both = np.stack([a, b])
+    middles = both @ weights
+    filled = _filled(a, b, [row for row, ring in zip(rows, closed, strict=True) if ring])
+    areas, moments = _moments(both - middles[:, None], filled)
+    least = THIN * max(_extent(a, lengths), _extent(b, lengths)) ** 2
+    if not filled or areas.min() <= least:
+        return Centroid(weights, (), np.stack([middles, middles]), 0.0)
+    return Centroid(weights, filled, np.stack([middles, middles + moments / areas]), float(areas.min()))
+
+
+def _moments(frames: ComplexArray, filled: Sequence[tuple[slice, float]]) -> tuple[FloatArray, ComplexArray]:
+    """Areas (T,) of frames (T, n), and their first moments."""
+    area, moment = np.zeros(len(frames)), np.zeros(len(frames), np.complex128)
+    for row, sign in filled:
+        p = frames[:, row]
+        q = np.roll(p, -1, axis=1)
+        cross = sign * (p.conj() * q).imag
+        area += cross.sum(axis=1) / 2
+        moment += (cross * (p + q)).sum(axis=1) / 6
+    return area, moment
+
+
+def _filled(a: ComplexArray, b: ComplexArray, rows: Sequence[slice]) -> tuple[tuple[slice, float], ...]:
+    """Closed outlines with the sign that their area counts by; none where the keyframes do not agree on it."""
+    signs = np.stack([_signs([p[row] for row in rows]) for p in (a, b)]) if rows else np.zeros((2, 0))
+    if (signs[0] * signs[1] < 0).any():
+        return ()
+    return tuple(zip(rows, np.sign(signs.sum(axis=0)).tolist(), strict=True))
+
+
+def _signs(outlines: Sequence[ComplexArray]) -> FloatArray:
+    """1 or -1 for each outline, by its direction and by whether it is a hole; 0 for a point or a line."""
+    points = [np.stack([p.real, p.imag], axis=1) for p in outlines]
+    found = np.zeros(len(outlines))
+    for k, p in enumerate(outlines):
+        q = p - p.mean()
+        area = float((q.conj() * np.roll(q, -1)).imag.sum() / 2)
+        if abs(area) > THIN * float(np.abs(q).max()) ** 2:
+            around = sum(bool(contains(o, points[k][0])[0]) for i, o in enumerate(points) if i != k)
+            found[k] = np.sign(area) * (-1) ** around
+    return found
 
 
 def _extent(p: ComplexArray, weights: FloatArray) -> float:

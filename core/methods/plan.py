@@ -9,10 +9,11 @@ import numpy.typing as npt
 
 from core.errors import GeometryError
 from core.geometry.outline import FloatArray, as_points
-from core.methods.assembly import assemble
+from core.methods.assembly import assemble, natural_turn
 from core.methods.intrinsic import IntrinsicPaths
 from core.methods.linear import LinearPaths
 from core.methods.pins import Paths, Pin, PinnedPaths, hold
+from core.methods.placement import PLACEMENTS
 
 METHODS: tuple[str, ...] = ("linear", "intrinsic", "rigid")
 """The names of the methods, from the simplest to the best."""
@@ -94,65 +95,6 @@ class Plan:
         return self.drawing.evaluate(t)[0]
 
 
-def inbetween(
-    a: npt.ArrayLike,
-    b: npt.ArrayLike,
-    t: npt.ArrayLike,
-    method: str = "intrinsic",
-    *,
-    closed: bool = True,
-    turns: int = 0,
-) -> FloatArray:
-    """Return the outline between two keyframes at the time t, or at many times at once.
-
-    Parameters
-    ----------
-    a, b : (n, 2) array_like
-        The keyframes in stage px; a[i] corresponds to b[i] (see `core.match` where it does not).
-    t : float or (T,) array_like
-        0 is `a`, 1 is `b`; may leave [0, 1] (easing that overshoots).
-    method : str
-        One of `METHODS`.
-    closed : bool
-        Whether the last vertex is joined to the first.
-    turns : int
-        Whole turns added to the shortest one (not for linear); positive from x towards y.
-
-    Returns
-    -------
-    (n, 2) or (T, n, 2) float array
-        Finite; at t = 0 and t = 1 the keyframes bit for bit.
-
-    Raises
-    ------
-    GeometryError
-        If a keyframe is no outline, the vertex counts differ (both are named), the method is unknown, the
-        turns are not whole or a t is not finite (or beyond a million).
-
-    Notes
-    -----
-    `linear` is (1 - t) a + t b. `intrinsic` interpolates lengths and headings of the edges (Sederberg, Gao, Wang
-    and Mu, "2-D shape blending", SIGGRAPH 1993). `rigid` lets the interior turn and stretch as one (Alexa,
-    Cohen-Or and Levin, SIGGRAPH 2000); where that cannot be it falls back to intrinsic, which the `note` of the
-    plan says. Both depend neither on scale, position, start vertex and drawing direction nor on which keyframe
-    comes first (rigid up to its choice of a mesh); only an exact half turn has no shorter side and goes from x
-    towards y.
-
-    Examples
-    --------
-    >>> square = [[0, 0], [2, 0], [2, 2], [0, 2]]
-    >>> quarter_turned = [[2, 0], [2, 2], [0, 2], [0, 0]]
-    >>> inbetween(square, quarter_turned, 0.5).round(3) + 0.0
-    array([[ 1.   , -0.414],
-           [ 2.414,  1.   ],
-           [ 1.   ,  2.414],
-           [-0.414,  1.   ]])
-    """
-    times = as_times(t)
-    frames = plan(a, b, method=method, closed=closed, turns=turns).evaluate(np.atleast_1d(times))
-    return frames if times.ndim else frames[0]
-
-
 def plan(
     a: npt.ArrayLike,
     b: npt.ArrayLike,
@@ -161,18 +103,25 @@ def plan(
     closed: bool = True,
     turns: int = 0,
     pins: Sequence[Pin] = (),
+    placement: str = "still",
 ) -> Plan:
     """Return the paths from `a` to `b`, to be evaluated at any number of times.
 
-    Parameters as of `inbetween` and `plan_drawing`.
+    Parameters as of `core.inbetween` and `plan_drawing`.
     """
     left = as_points(a, name="before", closed=closed)
     right = as_points(b, name="after", closed=closed)
-    return Plan(plan_drawing([AlignedPair(left, right, closed)], method=method, turns=turns, pins=pins))
+    pairs = [AlignedPair(left, right, closed)]
+    return Plan(plan_drawing(pairs, method=method, turns=turns, pins=pins, placement=placement))
 
 
 def plan_drawing(
-    pairs: Sequence[AlignedPair], *, method: str = "intrinsic", turns: int = 0, pins: Sequence[Pin] = ()
+    pairs: Sequence[AlignedPair],
+    *,
+    method: str = "intrinsic",
+    turns: int = 0,
+    pins: Sequence[Pin] = (),
+    placement: str = "still",
 ) -> DrawingPlan:
     """Return the paths of all outlines of a drawing, which move as one thing: a hole stays in its place.
 
@@ -180,18 +129,21 @@ def plan_drawing(
     ----------
     pairs : sequence of AlignedPair
         The outlines. Unlike in `plan`, a side may be a single point.
-    method, turns
-        As of `inbetween`.
+    method, turns, placement
+        As of `core.inbetween`.
     pins : sequence of Pin
-        Points whose way is given, on whatever outline; every frame has them exactly there.
+        Points whose way is given, on whatever outline; every frame has them exactly there. They decide where
+        frames lie, and not the placement.
 
     Raises
     ------
     GeometryError
-        As `inbetween`.
+        As `core.inbetween`.
     """
     if method not in METHODS:
         raise GeometryError(f'unknown method "{method}"; known are {", ".join(METHODS)}')
+    if placement not in PLACEMENTS:
+        raise GeometryError(f'unknown placement "{placement}"; known are {", ".join(PLACEMENTS)}')
     try:
         turns = operator.index(turns)
     except TypeError:
@@ -202,12 +154,42 @@ def plan_drawing(
             raise GeometryError(
                 f"{where}before has {len(pair.left)} vertices, after has {len(pair.right)}; match them first"
             )
-    paths, note = _paths([(p.left, p.right, p.closed) for p in pairs], method, turns, pins)
+    paths, note = _paths([(p.left, p.right, p.closed) for p in pairs], method, turns, pins, placement)
     return DrawingPlan(tuple(pairs), paths, note)
 
 
+def turn_of(pairs: Sequence[AlignedPair]) -> float:
+    """Return the turn of a drawing as a whole without extra turns, radians in (-pi, pi], from x towards y.
+
+    The mean over its edges, each by its length. An exact half turn (to a billionth) has no shorter side; it is pi.
+    """
+    return natural_turn([(p.left, p.right, p.closed) for p in pairs])
+
+
+def other_way(turns: int, natural: float) -> int:
+    """Return the extra turns with which a drawing goes round the other way, ending as before.
+
+    Parameters
+    ----------
+    turns : int
+        Extra turns now.
+    natural : float
+        As of `turn_of`. A drawing that does not turn counts as one that goes from x towards y.
+
+    Notes
+    -----
+    By +60 degrees becomes by -300, by -60 becomes by +300; with an extra turn by +420 becomes by -660. Done twice
+    it changes nothing.
+    """
+    return -turns - (1 if natural >= 0 else -1)
+
+
 def _paths(
-    outlines: Sequence[tuple[FloatArray, FloatArray, bool]], method: str, turns: int, pins: Sequence[Pin]
+    outlines: Sequence[tuple[FloatArray, FloatArray, bool]],
+    method: str,
+    turns: int,
+    pins: Sequence[Pin],
+    placement: str,
 ) -> tuple[Paths, str]:
     """Return the paths of all vertices, led through the pins, and what the method could not do as it should."""
     bending, note = None, ""
@@ -216,11 +198,11 @@ def _paths(
     if method == "linear" or not outlines:
         paths = LinearPaths.of([(left, right) for left, right, _ in outlines])
     elif method == "intrinsic":
-        paths = IntrinsicPaths.of(assemble(outlines, turns=turns))
+        paths = IntrinsicPaths.of(assemble(outlines, turns=turns, placement=placement))
     else:
         from core.methods import rigid  # sparse solvers take a while to import
 
-        paths, note = rigid.rigid_paths(outlines, turns=turns)
+        paths, note = rigid.rigid_paths(outlines, turns=turns, placement=placement)
         if held is not None and isinstance(paths, rigid.RigidPaths):
             bending = rigid.RigidBending.of(paths, held.weights)
     return (paths if held is None else PinnedPaths(paths, held, bending)), note

@@ -123,11 +123,11 @@ class RigidPaths:
             frames[:, part.rows] = part.forms(t)
         for _, bridge, rows in self.moves:
             frames[:, rows] += bridge.shift(frames, t)[:, None]
-        frames += (self.placement.path(t) - frames @ self.placement.weights)[:, None]
+        frames += self.placement.shift(frames, t)[:, None]
 
 
 def rigid_paths(
-    pairs: Sequence[tuple[FloatArray, FloatArray, bool]], *, turns: int = 0
+    pairs: Sequence[tuple[FloatArray, FloatArray, bool]], *, turns: int = 0, placement: str = "still"
 ) -> tuple[RigidPaths | IntrinsicPaths, str]:
     """Plan the paths of outlines (left (k, 2), right (k, 2), closed), and say what could not be done as it should.
 
@@ -137,6 +137,8 @@ def rigid_paths(
         As of `AlignedPair`. Each outer outline moves with its holes; open outlines move by their headings.
     turns : int
         Whole turns added to the shortest one.
+    placement : str
+        One of `PLACEMENTS`.
 
     Returns
     -------
@@ -145,13 +147,13 @@ def rigid_paths(
     note : str
         Empty when all is well.
     """
-    plain = assemble(pairs, turns=turns)
+    plain = assemble(pairs, turns=turns, placement=placement)
     interiors = bodies(plain)
     if not interiors:
         return IntrinsicPaths.of(plain), FELL_BACK if any(plain.closed) else ""
     assembly = plain
     if max(map(len, interiors)) > 1:
-        assembly = assemble(pairs, turns=turns, bodies=_numbers(interiors, len(pairs)))
+        assembly = assemble(pairs, turns=turns, bodies=_numbers(interiors, len(pairs)), placement=placement)
     planned = [_planned(assembly, own) for own in interiors]
     note = _note(planned, sum(plain.closed) - sum(map(len, interiors)))
     found = [(own, body) for own, body in zip(interiors, planned, strict=True) if body is not None]

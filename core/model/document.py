@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from core.correspondence.pairing import Correspondence
 from core.errors import DocumentError
+from core.methods.placement import PLACEMENTS
 from core.methods.plan import METHODS
 from core.model.drawing import Color, Drawing, as_color, check_id
 from core.model.easing import Easing
@@ -21,9 +22,6 @@ FASTEST = 1000
 MOST_TURNS = 100
 MOST_PINS = 200
 LONGEST_STEP = 1000
-PLACEMENTS = ("still", "centroid")
-"""Where an in-between lies: what hardly moves stays still, or the centroid goes straight."""
-
 LONGEST_NAME = 1000
 AUTO = "auto"
 """Not a method of its own: the better one of rigid and intrinsic."""

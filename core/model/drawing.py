@@ -1,6 +1,7 @@
 """A drawing: the outlines of one keyframe and how they are painted."""
 
 import re
+from collections import Counter
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -118,7 +119,7 @@ class Drawing:
     def __post_init__(self) -> None:
         ids = [o.id for o in self.outlines]
         if len(set(ids)) < len(ids):
-            twice = next(i for i in ids if ids.count(i) > 1)
+            twice = Counter(ids).most_common(1)[0][0]
             raise DocumentError(f"two outlines of one drawing have the id {twice}")
 
     def outline(self, outline_id: int) -> Outline:

@@ -9,7 +9,7 @@ from core.correspondence.drawings import pair_outlines
 from core.correspondence.matching import match
 from core.correspondence.pairing import Correspondence
 from core.geometry.outline import FloatArray, locate, points_at
-from core.methods.plan import AlignedPair
+from core.methods.plan import AlignedPair, turn_of
 from core.model.color import mix_colors
 from core.model.document import Span
 from core.model.drawing import WIDEST_STROKE, Drawing, Outline, Style
@@ -96,6 +96,11 @@ class SpanPlan:
     links: tuple[Link, ...]
     paths: Paths
     styles: tuple[Style, Style]
+
+    @property
+    def natural_turn(self) -> float:
+        """The turn of the drawing as a whole without extra turns, radians; see `core.methods.plan.turn_of`."""
+        return turn_of([link.aligned for link in self.links])
 
     def picture(self, t: float) -> Picture:
         """Return the in-between at the eased t (0 and 1 give the keyframes' shapes)."""
@@ -187,7 +192,14 @@ def plan_span(
     pairs = [link.aligned for link in links]
     pins = planned_pins(span.pins, [_for_pins(link, before) for link in links]) if span.pins else ()
     paths = solve_paths(
-        pairs, span.method, span.turns, pins=pins, repair=span.repair, progress=progress, cancelled=cancelled
+        pairs,
+        span.method,
+        span.turns,
+        pins=pins,
+        placement=span.placement,
+        repair=span.repair,
+        progress=progress,
+        cancelled=cancelled,
     )
     return SpanPlan(tuple(links), paths, (before.style, after.style))
 

@@ -21,9 +21,6 @@ LOOKS = np.arange(1, 16) / 16
 TIE = 0.02
 """Relative difference in stretch below which two methods are equally good."""
 
-SEEN = 1e-4
-"""Distance, in sizes of the drawing, that a pinned point may be off before it is said."""
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Paths:
@@ -56,9 +53,6 @@ class Paths:
         if self.pins is None:
             return np.zeros((len(t), 0, 2))
         places = self.pins.held.wanted(t)
-        if isinstance(self.plan, RepairedDrawingPlan) and self.plan.changed:
-            frames = np.concatenate(self.plan.evaluate(t), axis=1)
-            places = self.pins.held.at(frames[..., 0] + 1j * frames[..., 1])
         return np.stack([places.real, places.imag], axis=-1)
 
 
@@ -68,6 +62,7 @@ def solve_paths(
     turns: int,
     *,
     pins: Sequence[Pin] = (),
+    placement: str = "still",
     repair: bool = False,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
@@ -84,37 +79,28 @@ def solve_paths(
         Extra whole turns.
     pins : sequence of Pin
         Points whose way is given.
+    placement : str
+        One of `PLACEMENTS`.
     repair : bool
         Whether crossings are bent away; may take seconds.
     progress, cancelled
         Of the repair, as of `core.repair.plan.repair_drawing`.
     """
     if method == AUTO:
-        paths = _best(pairs, turns, pins)
+        paths = _best(pairs, turns, pins, placement)
     else:
-        plan = plan_drawing(pairs, method=method, turns=turns, pins=pins)
+        plan = plan_drawing(pairs, method=method, turns=turns, pins=pins, placement=placement)
         paths = Paths(plan, method, notes=(plan.note,) if plan.note else ())
     if not repair or not isinstance(paths.plan, DrawingPlan):
         return paths
     repaired = repair_drawing(paths.plan, progress=progress, cancelled=cancelled)
-    notes = (*paths.notes, *repaired.notes, *_moved_pins(repaired))
+    notes = (*paths.notes, *repaired.notes)
     return Paths(repaired, paths.method, paths.reason, notes)
 
 
-def _moved_pins(repaired: RepairedDrawingPlan) -> tuple[str, ...]:
-    """Say so when a repair, which knows of no pins, has moved pinned points."""
-    paths = repaired.drawing.paths
-    if not repaired.changed or not isinstance(paths, PinnedPaths):
-        return ()
-    frames = np.concatenate(repaired.evaluate(LOOKS), axis=1)
-    off = np.abs(paths.held.at(frames[..., 0] + 1j * frames[..., 1]) - paths.held.wanted(LOOKS)).max()
-    size = np.ptp(frames, axis=(0, 1)).max()
-    return (f"the repair moved a pinned point by up to {off:.1f} px",) if off > SEEN * size else ()
-
-
-def _best(pairs: Sequence[AlignedPair], turns: int, pins: Sequence[Pin]) -> Paths:
+def _best(pairs: Sequence[AlignedPair], turns: int, pins: Sequence[Pin], placement: str) -> Paths:
     """Look at both methods' in-betweens, and take the one with fewer and lesser problems, then less stretch."""
-    plans = [plan_drawing(pairs, method=m, turns=turns, pins=pins) for m in CANDIDATES]
+    plans = [plan_drawing(pairs, method=m, turns=turns, pins=pins, placement=placement) for m in CANDIDATES]
     if plans[0].note.startswith("fell back"):  # there is nothing to choose from
         reason = f"auto chose intrinsic: {plans[0].note}"
         return Paths(plans[1], "intrinsic", reason)

@@ -30,10 +30,12 @@ FEW_TERMS = 300
 class Metric:
     """What being away from the wished frame costs: z'Qz, with Q (n, n) sparse, symmetric and positive.
 
-    Factored once. Columns of the inverse are kept, since the same vertices touch again and again.
+    Factored once. Columns of the inverse are kept, since the same vertices touch again and again. Weighted means
+    of the vertices that are `held` (k, n) never give way to the barrier: they go where they are wished.
     """
 
     matrix: Any
+    held: FloatArray | None = None
     _rows: FloatArray = field(default_factory=lambda: np.zeros((0, 0)))
     _place: IndexArray = field(default_factory=lambda: np.zeros(0, np.intp))
 
@@ -56,8 +58,27 @@ class Metric:
             units = np.zeros((n, len(missing)))
             units[missing, np.arange(len(missing))] = 1.0
             self._place[missing] = len(self._rows) + np.arange(len(missing))
-            self._rows = np.concatenate([self._rows, self._factors.solve(units).T])
+            self._rows = np.concatenate([self._rows, self._without_held(self._factors.solve(units).T)])
         return self._rows[self._place[vertices]]
+
+    @cached_property
+    def _grip(self) -> tuple[FloatArray, FloatArray]:
+        """What the held means answer to a pull at each of them, (k, n), and the inverse of how they do (k, k)."""
+        pulled = self._factors.solve(np.ascontiguousarray(self.held.T)).T if self.held is not None else 0
+        answers = np.asarray(pulled, np.float64)
+        return answers, np.linalg.pinv(answers @ np.asarray(self.held).T, rcond=1e-12)
+
+    def lift(self, lack: ComplexArray) -> ComplexArray:
+        """Return the moves (n,) that cost least and move the held means by `lack` (k,)."""
+        answers, back = self._grip
+        return np.asarray((back @ lack) @ answers, np.complex128)
+
+    def _without_held(self, rows: FloatArray) -> FloatArray:
+        """Rows of the inverse on the vertices' moves that leave the held means where they are."""
+        if self.held is None:
+            return rows
+        answers, back = self._grip
+        return np.asarray(rows - (rows @ self.held.T) @ back @ answers, np.float64)
 
     def step(self, away: ComplexArray, terms: Terms, weight: float) -> ComplexArray:
         """Return the Newton step (n,) from a place `away` from the wished one, with the barrier's terms."""
@@ -93,6 +114,11 @@ class Metric:
         )
         pull = self.matrix @ away
         gradient = np.concatenate([pull.real, pull.imag]) + slopes.T @ (weight * terms.slope)
+        if self.held is not None:
+            rows = sp.block_diag([self.held, self.held])
+            lack = self.held @ away
+            hessian = sp.block_array([[hessian, rows.T], [rows, -1e-12 * sp.eye_array(rows.shape[0])]])
+            gradient = np.concatenate([gradient, lack.real, lack.imag])
         step = -splu(hessian.tocsc()).solve(gradient)
         return np.asarray(step[:n] + 1j * step[n:], np.complex128)
 
@@ -115,6 +141,8 @@ class Field:
     ----------
     checkpoint : callable
         Called before every step; raises `CancelledError` when the work is no longer wanted.
+    held : (k, n) float array, optional
+        Weights of the vertices whose means are pinned.
     """
 
     chains: Chains
@@ -122,11 +150,17 @@ class Field:
     mass: FloatArray
     springs: Any
     checkpoint: Callable[[], None]
+    held: FloatArray | None = None
+
+    @property
+    def many_held(self) -> bool:
+        """Whether more pins are held than a similarity can bring back to their places."""
+        return self.held is not None and len(self.held) > 2
 
     @cached_property
     def metric(self) -> Metric:
         """Mass, and springs that spread a deviation over a twentieth of the perimeter."""
-        return Metric(sp.diags(self.mass) + 0.05**2 * self.springs)
+        return Metric(sp.diags(self.mass) + 0.05**2 * self.springs, self.held)
 
     def pairs_near(self, z: ComplexArray) -> Pairs:
         """Pairs within the barrier's widest reach of each other."""

@@ -18,6 +18,9 @@ Sketch = Callable[[ComplexArray, ComplexArray], ComplexArray]
 MOST_FLOW = 60
 """Rounds of flow before giving up; four steps each. Every pair tried so far needed fewer than 25."""
 
+MOST_FLOW_HELD = 5
+"""The same where many pins are held, which no smoothing can move out of the way."""
+
 MARCH_AT = (0, 2, 4, 7, 12, 20, 32)
 """Rounds at which marches are tried: they cost more than flowing on."""
 
@@ -37,7 +40,7 @@ def join(
     them. Only one closed outline can be made simpler; several, or an open one, must be joined as they are.
     """
     left, right = Simplification(field, x), Simplification(field, y)
-    for depth in range(MOST_FLOW):
+    for depth in range(MOST_FLOW_HELD if field.many_held else MOST_FLOW):
         between = _direct(field, left.place, right.place, sketches if depth in MARCH_AT else ())
         if between is not None:
             return [*left.places, *between, *right.places[::-1]]
@@ -104,7 +107,8 @@ class Simplification:
 
     def _step(self) -> None:
         field, z = self._field, self.place
-        metric = Metric(field.springs * self._duration + sp.diags(field.mass))
+        held = field.held if field.many_held else None
+        metric = Metric(field.springs * self._duration + sp.diags(field.mass), held)
         aim = metric.solve(field.mass * z)
         weight = self._duration * STIFFNESS
         places = descend(field, z, aim, metric=metric, weight=weight, steps=6, smallest=1e-8)
@@ -114,6 +118,9 @@ class Simplification:
         arrived = float(np.abs(places[-1] - aim).max()) < 0.5 * float(np.abs(z - aim).max())
         self._duration = min(self._duration * 1.3, 0.03) if arrived else self._duration / 1.5
         places = shortened(field, z, places)
+        if held is not None:  # growing again would take the pins away from their places
+            self.places += places
+            return
         middle = places[-1].mean()
         scale = np.sqrt(_area(z) / _area(places[-1]))
         self.places += [*places, middle + scale * (places[-1] - middle)]

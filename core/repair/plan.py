@@ -9,6 +9,8 @@ import numpy.typing as npt
 
 from core.errors import CancelledError
 from core.geometry.outline import FloatArray
+from core.methods.assembly import in_a_row
+from core.methods.pins import PinnedPaths
 from core.methods.plan import AlignedPair, DrawingPlan, Plan, as_times, plan_drawing
 from core.repair.barrier import Barrier
 from core.repair.chains import Chains, ComplexArray, as_points
@@ -16,8 +18,19 @@ from core.repair.descent import Field
 from core.repair.doubled import spread
 from core.repair.join import Sketch
 from core.repair.march import distance
+from core.repair.pinned import Grip
 from core.repair.route import Course, route
 from core.repair.survey import TICKS
+from core.repair.timing import jumps
+
+LOOKS_A_TICK = 4
+"""Times in the finest stretch of a span at which a repair with pins is looked at."""
+
+MOST_PINNED_JUMP = 8.0
+"""Largest step between neighbouring frames, in median steps, that a repair with pins may have."""
+
+NO_WAY = "no way without a crossing was found; the in-betweens are as the method made them"
+NO_WAY_WITH_PINS = "no way without a crossing was found that leaves the pins where they are; nothing is repaired"
 
 Progress = Callable[[float], None]
 
@@ -137,7 +150,8 @@ def repair_drawing(
     RepairedDrawingPlan
         Every in-between simple, continuous in t, the keyframes bit for bit; the method's own wherever that was
         simple, but for the neighbourhood of a repair. If a keyframe crosses itself or the outlines run opposite
-        ways round no such path exists: then the method's own, and `notes` says why.
+        ways round no such path exists: then the method's own, and `notes` says why. Pinned points are where they
+        must be in any case; where these leave no way that could be found, nothing is changed and `notes` says so.
 
     Raises
     ------
@@ -184,14 +198,45 @@ def _course(plan: DrawingPlan, parts: tuple[int, ...], watch: "_Watch") -> tuple
     before, after = ends + moves
     chains = replace(chains, keyframes=ends + moves)
     mass, springs = chains.stiffness(before, after)
-    field = Field(chains, Barrier(before, after), mass, springs, watch.check)
-    sketches = tuple(_sketch(pairs, method, steps) for method, steps in (("intrinsic", 16), ("linear", 10)))
-    found = route(field, path, sketches, watch.tell)
-    if not found.whole:
-        return None, ("no way without a crossing was found; the in-betweens are as the method made them",)
-    if not found.bent and not moves.any():
-        return None, ()
-    return Course(found, path, ends, bool(moves.any()), origin, scale), ()
+    grip = _grip(plan, parts, origin, scale)
+    sketches = tuple(_sketch(pairs, method, steps, grip) for method, steps in (("intrinsic", 16), ("linear", 10)))
+    tell = watch.tell
+    for held in (None,) if grip is None else grip.attempts:
+        field = Field(chains, Barrier(before, after), mass, springs, watch.check, held)
+        found = route(field, path, sketches, tell)
+        tell = watch.keep  # progress never falls back
+        if found.whole and not found.bent and not moves.any():
+            return None, ()
+        course = Course(found, path, ends, bool(moves.any()), origin, scale, grip)
+        if found.whole and (grip is None or _pins_met(course, chains)):
+            return course, ()
+    return None, (NO_WAY if grip is None else NO_WAY_WITH_PINS,)
+
+
+def _grip(plan: DrawingPlan, parts: tuple[int, ...], origin: complex, scale: float) -> Grip | None:
+    """The pins on the outlines that are repaired."""
+    if not isinstance(plan.paths, PinnedPaths):
+        return None
+    rows = in_a_row([len(pair.left) for pair in plan.pairs])
+    return Grip.of(plan.paths.held, [rows[k] for k in parts], origin, scale)
+
+
+def _pins_met(course: Course, chains: Chains) -> bool:
+    """Whether a course, brought onto its pins, still crosses nothing and jumps nowhere."""
+
+    def repaired(times: FloatArray) -> ComplexArray:
+        frames = course.path(times)
+        rows, places = course.at(times)
+        if len(rows):
+            frames[rows] = (places - course.origin) / course.scale
+        return frames
+
+    one = course.grip is not None and len(course.grip.held.weights) == 1  # it only shifts frames
+    frames = repaired(np.arange(1, LOOKS_A_TICK * TICKS) / (LOOKS_A_TICK * TICKS))
+    signs = chains.signs(frames)
+    if not chains.simple(frames).all() or (signs != signs[:1]).any():
+        return False
+    return one or jumps(repaired) <= max(MOST_PINNED_JUMP, 2 * jumps(course.path))
 
 
 def _is_point(points: FloatArray) -> bool:
@@ -226,7 +271,7 @@ def _refusal(chains: Chains, ends: ComplexArray) -> str:
     return ""
 
 
-def _sketch(outlines: list[AlignedPair], method: str, steps: int) -> Sketch:
+def _sketch(outlines: list[AlignedPair], method: str, steps: int, grip: Grip | None) -> Sketch:
     """In-betweens of two frames of these outlines by another method, as wishes for a march."""
     chains = Chains.of([len(p.left) for p in outlines], [p.closed for p in outlines])
     times = np.linspace(0.0, 1.0, steps + 1)
@@ -234,7 +279,8 @@ def _sketch(outlines: list[AlignedPair], method: str, steps: int) -> Sketch:
     def sketch(x: ComplexArray, y: ComplexArray) -> ComplexArray:
         p, q = as_points(x), as_points(y)
         pairs = [AlignedPair(p[r], q[r], c) for r, c in zip(chains.rows, chains.closed, strict=True)]
-        return _row(plan_drawing(pairs, method=method).evaluate(times))
+        frames = _row(plan_drawing(pairs, method=method).evaluate(times))
+        return frames if grip is None else grip.between(frames)
 
     return sketch
 
@@ -247,6 +293,9 @@ class _Watch:
     def check(self) -> None:
         if self.cancelled is not None and self.cancelled():
             raise CancelledError("the repair was cancelled")
+
+    def keep(self, share: float) -> None:
+        self.check()
 
     def tell(self, share: float) -> None:
         self.check()

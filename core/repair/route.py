@@ -9,9 +9,10 @@ from core.geometry.boxes import IndexArray
 from core.geometry.outline import FloatArray
 from core.repair.chains import BoolArray, ComplexArray
 from core.repair.contacts import clear_moves
-from core.repair.descent import Field
+from core.repair.descent import Field, descend
 from core.repair.join import Sketch, join
 from core.repair.march import March, best_change, distance, march
+from core.repair.pinned import Grip
 from core.repair.survey import TICKS, Path, Terrain, runs, survey, terrain
 from core.repair.tighten import tighten
 from core.repair.timing import FILLED, MOST_JUMP, durations, jumps, move_lengths, speed_limit
@@ -99,6 +100,8 @@ class Course:
         Whether any vertex was told apart. The outlines then leave the keyframes by a straight move of `OPENING`.
     origin, scale
         To px.
+    grip : Grip, optional
+        Pins to be met.
     """
 
     route: Route
@@ -107,10 +110,13 @@ class Course:
     doubled: bool
     origin: complex
     scale: float
+    grip: Grip | None = None
 
     def at(self, times: FloatArray) -> tuple[IndexArray, ComplexArray]:
         """Return which of the times (T,) are not the method's own, and the places there in px."""
         rows, places = self._opened(times) if self.doubled else self.route.at(times)
+        if self.grip is not None and len(rows):
+            places = self.grip.onto(places, times[rows])
         return rows, places * self.scale + self.origin
 
     def _opened(self, times: FloatArray) -> tuple[IndexArray, ComplexArray]:
@@ -324,10 +330,10 @@ def _timed(field: Field, path: Path, repairs: Sequence[_Repair], frames: Complex
         high = repairs[k + 1].first if k + 1 < len(repairs) else TICKS
         found.append(repair.widened(frames, low, high, limit))
     found = [repair.tightened(field, path, limit) for repair in found]
-    detours = [repair.detour(limit) for repair in found]
+    detours = [_held(field, path, repair.detour(limit)) for repair in found]
     if jumps(lambda t: _mixed(detours, frames, t)) <= MOST_JUMP:
         return detours
-    return [_evenly(found, frames)]
+    return [_held(field, path, _evenly(found, frames))]
 
 
 def _mixed(detours: list[Detour], frames: ComplexArray, times: FloatArray) -> ComplexArray:
@@ -336,6 +342,20 @@ def _mixed(detours: list[Detour], frames: ComplexArray, times: FloatArray) -> Co
     rows, bent = Route(tuple(detours)).at(times)
     places[rows] = bent
     return places
+
+
+def _held(field: Field, path: Path, detour: Detour) -> Detour:
+    """The detour with the pins, if there are any, at every place where the path has them when it is passed."""
+    if field.held is None or not field.many_held:
+        return detour
+    wished = path(detour.times)
+    places = detour.places.copy()
+    for k in range(1, len(places) - 1):
+        z = places[k]
+        target = z + field.metric.lift(field.held @ (wished[k] - z))
+        places[k] = [z, *descend(field, z, target, metric=field.metric)][-1]
+    clear = clear_moves(field.chains, places[:-1], places[1:]).all()
+    return Detour(detour.times, places) if clear else detour
 
 
 def _evenly(repairs: list[_Repair], frames: ComplexArray) -> Detour:

@@ -123,7 +123,7 @@ def no_thread_is_left() -> Iterator[None]:
     """Fail a test that leaves one of our threads running."""
     before = set(threading.enumerate())
     yield
-    ours = ("preview", "export", "png", "import")
+    ours = ("preview", "export", "png", "import", "autosave", "watch", "file")
     left = [t.name for t in set(threading.enumerate()) - before if t.name.startswith(ours)]
     assert left == []
 
@@ -140,9 +140,9 @@ def settings(tmp_path: Path) -> Settings:
 
 
 @pytest.fixture
-def editor(qtbot: QtBot, settings: Settings) -> Iterator[Editor]:
+def editor(qtbot: QtBot, settings: Settings, tmp_path: Path) -> Iterator[Editor]:
     settings.keep("theme", "dark")
-    made = Editor(settings)
+    made = Editor(settings, tmp_path / "state")
     # the window is closed before this fixture ends, and nobody is there to answer a question
     qtbot.addWidget(made.window, before_close_func=lambda _: setattr(made.files, "may_leave", lambda: True))
     made.window.resize(1440, 900)
@@ -151,6 +151,8 @@ def editor(qtbot: QtBot, settings: Settings) -> Iterator[Editor]:
     made.window.activateWindow()
     made.window.canvas.setFocus()
     yield made
+    made.safekeeping.stop()
+    made.files.stop()
     made.playback.stop()
     made.preview.stop()
     made.ranked.stop()

@@ -1,6 +1,7 @@
 import json
 import os
 import pty
+import re
 import signal
 import subprocess
 import sys
@@ -162,9 +163,14 @@ def test_progress_is_one_line_and_only_on_a_terminal(project, tmp_path):
     shown = os.read(main_end, 10_000).decode()
     os.close(main_end)
     assert ended.returncode == 0
-    assert "\rframe 1 of 6" in shown
-    assert shown.endswith("\rframe 6 of 6\r\x1b[K")
-    assert "\n" not in shown
+    *steps, cleared = shown.split("\x1b[K")
+    assert steps[-1] == cleared + "\r"
+    # a frame that took long is told how many seconds are left; frames that came together share a step
+    found = [re.fullmatch(r"\r\[(#+\.*)\] (\d) of 6(, \d+ s left)?", step) for step in steps[:-1]]
+    counts = [int(step[2]) for step in found]
+    assert counts == sorted(set(counts))
+    assert counts[-1] == 6
+    assert all(step[1] == ("#" * (5 * int(step[2]))).ljust(30, ".") for step in found)
 
 
 def test_ctrl_c_stops_between_frames_with_130_and_no_traceback(tmp_path):
@@ -179,7 +185,9 @@ def test_ctrl_c_stops_between_frames_with_130_and_no_traceback(tmp_path):
     said = export.communicate(timeout=30)[1]
     files = os.listdir(out)
     assert export.returncode == 130
-    assert said == f"inkbetween: stopped; {len(files)} complete frames stay in {out}\n"
+    assert (
+        said == f"inkbetween: stopped; {len(files)} complete frames stay in {out}, and --continue makes the rest\n"
+    )
     assert 3 <= len(files) < 20_000
     assert all((out / name).read_bytes().endswith(b"IEND\xaeB`\x82") for name in files)
 
@@ -252,11 +260,11 @@ def test_missing_libraries_of_x_are_named_by_their_packages(no_display, opened, 
 def test_a_qt_that_cannot_be_imported_is_one_sentence(error, sentence, project, tmp_path, monkeypatch, capsys):
     class Refuse:
         def find_spec(self, name, path=None, target=None):
-            if name == "app.export.frames":
+            if name == "app.export.export":
                 raise error
 
-    monkeypatch.delitem(sys.modules, "app.export.frames", raising=False)
-    monkeypatch.delattr("app.export.frames", raising=False)
+    monkeypatch.delitem(sys.modules, "app.export.export", raising=False)
+    monkeypatch.delattr("app.export.export", raising=False)
     monkeypatch.setattr(sys, "meta_path", [Refuse(), *sys.meta_path])
     assert main(["export", str(project), str(tmp_path / "out")]) == 1
     said = capsys.readouterr().err

@@ -2,12 +2,15 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from app.cli import main
 from core import load
+from core.geometry.outline import locate
+from core.model.motion import PlanCache, pictures_at
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 300 200">'
 
@@ -80,7 +83,6 @@ def test_a_bad_drawing_is_one_sentence_and_nothing_is_written(drawings, content,
     "words",
     [
         ["a.svg", "b.svg"],
-        ["a.svg", "-o", "x.inkb"],
         ["a.svg", "b.svg", "-o", "x.inkb", "--frames", "1"],
         ["a.svg", "b.svg", "-o", "x.inkb", "--frames", "many"],
         ["a.svg", "b.svg", "-o", "x.inkb", "--method", "magic"],
@@ -99,3 +101,38 @@ def test_no_window_toolkit_is_imported(drawings):
     )
     command = [sys.executable, "-c", code]
     assert subprocess.run(command, cwd=drawings, env=None, check=False).returncode == 0
+
+
+def test_a_folder_of_svg_becomes_keyframes_at_the_numbers_of_the_names(drawings, capsys):
+    (drawings / "walk").mkdir()
+    for name, frame in (("a", 1), ("b", 9)):
+        (drawings / f"{name}.svg").rename(drawings / "walk" / f"walk.{frame:04}.svg")
+    assert main(["new", "walk", "-o", "walk.inkb", "--method", "linear"]) == 0
+    document = load("walk.inkb")
+    assert capsys.readouterr().out.startswith("walk.inkb: 9 frames, ")
+    (layer,) = document.layers
+    assert (layer.name, layer.frames()) == ("walk", (1, 9))
+    assert layer.keyframes[0].span.method == "linear"
+
+
+def test_an_exported_lottie_comes_back_as_a_project_that_looks_the_same(drawings, capsys):
+    assert main(["new", "a.svg", "b.svg", "-o", "ab.inkb", "--method", "linear", "--frames", "9"]) == 0
+    assert main(["export", "ab.inkb", "ab.json"]) == 0
+    assert main(["new", "ab.json", "-o", "back.inkb"]) == 0
+    first, back = load("ab.inkb"), load("back.inkb")
+    assert (back.stage, back.rate, back.length) == (first.stage, first.rate, first.length)
+    assert len(back.layers) == 1
+    plans = PlanCache()
+    for frame in (1, 4, 9):
+        ours, theirs = (pictures_at(d, frame, plans)[0].outlines for d in (first, back))
+        for (a, _), (b, _) in zip(ours, theirs, strict=True):
+            for points, other in ((a, b), (b, a)):
+                assert locate(other, points, closed=True)[1].max() < 0.01
+
+
+def test_one_drawing_alone_or_a_length_for_a_folder_is_one_sentence(drawings, capsys):
+    assert main(["new", "a.svg", "-o", "x.inkb"]) == 1
+    assert "a.svg alone makes no film" in capsys.readouterr().err
+    assert main(["new", ".", "-o", "x.inkb", "--frames", "7"]) == 1
+    assert "a length of its own" in capsys.readouterr().err
+    assert not Path("x.inkb").exists()

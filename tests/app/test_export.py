@@ -14,9 +14,11 @@ import pytest
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QImage
 
-from app.export import frames as export
-from app.export.frames import ExportSettings, export_frames, frame_path
+from app.export import pool, whole
+from app.export.export import export
+from app.export.names import frame_path
 from app.export.png import encode_png
+from app.export.settings import ExportSettings
 from app.painting import render_frame
 from core.errors import InkbetweenError, StorageError
 from core.io.project import save
@@ -91,9 +93,9 @@ def test_the_file_says_eight_bits_srgb_and_nothing_else():
 def test_files_are_numbered_as_animators_number_them(tmp_path):
     document = film(length=12)
     settings = settings_of(document, tmp_path / "new" / "folder", first=9, last=11)
-    exported = export_frames(document, settings)
-    assert names(settings.folder) == ["arm.0009.png", "arm.0010.png", "arm.0011.png"]
-    assert exported.files == tuple(settings.folder / n for n in names(settings.folder))
+    exported = export(document, settings)
+    assert names(settings.out) == ["arm.0009.png", "arm.0010.png", "arm.0011.png"]
+    assert exported.files == tuple(settings.out / n for n in names(settings.out))
     assert not exported.cancelled
     odd = replace(settings, separator="_", padding=2)
     assert frame_path(odd, 7).name == "arm_07.png"
@@ -103,7 +105,7 @@ def test_files_are_numbered_as_animators_number_them(tmp_path):
 def test_every_frame_is_the_rendered_picture_pixel_for_pixel(tmp_path):
     document = film(length=5, stroke="#10203080")
     settings = settings_of(document, tmp_path, size=(200, 150))
-    for number, file in enumerate(export_frames(document, settings).files, start=1):
+    for number, file in enumerate(export(document, settings).files, start=1):
         expected = render_frame(document, number, QSize(200, 150), PlanCache(), format=RGBA64)
         assert np.array_equal(decoded(file), channels(expected))
 
@@ -111,7 +113,7 @@ def test_every_frame_is_the_rendered_picture_pixel_for_pixel(tmp_path):
 def test_alpha_is_straight_and_edges_keep_their_colour(tmp_path):
     document = film(fill="#785ae6b4", shift=20.37)
     settings = settings_of(document, tmp_path, size=(331, 247))
-    for file in export_frames(document, settings).files:
+    for file in export(document, settings).files:
         picture = decoded(file).astype(int)
         seen = picture[..., 3] > 0
         assert np.unique(picture[..., 3]).size > 5  # there are edges
@@ -122,23 +124,23 @@ def test_alpha_is_straight_and_edges_keep_their_colour(tmp_path):
 
 def test_a_film_on_an_opaque_background_has_no_alpha_channel(tmp_path):
     document = film(background="#123456", fill="#000000")
-    file = export_frames(document, settings_of(document, tmp_path)).files[0]
+    file = export(document, settings_of(document, tmp_path)).files[0]
     assert chunks(file.read_bytes())[b"IHDR"][9] == 2  # RGB
     assert tuple(decoded(file)[0, 0]) == (0x12, 0x34, 0x56, 255)
-    transparent = export_frames(document, settings_of(document, tmp_path, background=None)).files[0]
+    transparent = export(document, settings_of(document, tmp_path, background=None, replace=True)).files[0]
     assert decoded(transparent)[0, 0, 3] == 0
 
 
 def test_the_same_document_gives_the_same_bytes(tmp_path):
     document = film(length=6)
-    first = export_frames(document, settings_of(document, tmp_path / "a")).files
-    second = export_frames(document, settings_of(document, tmp_path / "b")).files
+    first = export(document, settings_of(document, tmp_path / "a")).files
+    second = export(document, settings_of(document, tmp_path / "b")).files
     assert [f.read_bytes() for f in first] == [f.read_bytes() for f in second]
 
 
 def test_progress_counts_every_frame_in_the_calling_thread(tmp_path):
     document, seen = film(length=9), []
-    export_frames(
+    export(
         document,
         settings_of(document, tmp_path),
         progress=lambda done, total: seen.append((done, total, threading.current_thread())),
@@ -149,7 +151,7 @@ def test_progress_counts_every_frame_in_the_calling_thread(tmp_path):
 def test_frames_can_be_exported_from_any_thread_and_no_thread_is_left(tmp_path):
     document = film(length=6)
     before = threading.active_count()
-    thread = threading.Thread(target=export_frames, args=(document, settings_of(document, tmp_path)))
+    thread = threading.Thread(target=export, args=(document, settings_of(document, tmp_path)))
     thread.start()
     thread.join()
     assert len(names(tmp_path)) == 6
@@ -160,16 +162,16 @@ def test_only_a_few_frames_are_rendered_ahead_of_those_written(tmp_path, monkeyp
     document = film(length=60)
     finished, ahead = [], []
     rendered = itertools.count(1)
-    render = export._render
-    monkeypatch.setattr(export, "_render", lambda *a: ahead.append(next(rendered) - len(finished)) or render(*a))
-    export_frames(document, settings_of(document, tmp_path), progress=lambda done, _: finished.append(done))
+    paint = pool.paint
+    monkeypatch.setattr(pool, "paint", lambda *a: ahead.append(next(rendered) - len(finished)) or paint(*a))
+    export(document, settings_of(document, tmp_path), progress=lambda done, _: finished.append(done))
     assert len(ahead) == 60
-    assert max(ahead) <= export.MOST_ENCODERS + 2
+    assert max(ahead) <= pool.MOST_ENCODERS + 2
 
 
 def test_huge_pictures_wait_for_one_another():
-    assert export._most_waiting((16384, 16384)) == 1
-    assert export._most_waiting((1920, 1080)) >= 2
+    assert pool.most_waiting((16384, 16384), 8) == 1
+    assert pool.most_waiting((1920, 1080), 2) >= 2
 
 
 # Stopping and failing
@@ -177,7 +179,7 @@ def test_huge_pictures_wait_for_one_another():
 
 def test_a_cancelled_export_leaves_complete_frames_and_nothing_else(tmp_path):
     document, done = film(length=40), []
-    exported = export_frames(
+    exported = export(
         document,
         settings_of(document, tmp_path, size=(320, 240)),
         progress=lambda count, _: done.append(count),
@@ -191,7 +193,7 @@ def test_a_cancelled_export_leaves_complete_frames_and_nothing_else(tmp_path):
 
 def test_an_export_cancelled_at_once_writes_nothing(tmp_path):
     document = film()
-    exported = export_frames(document, settings_of(document, tmp_path), cancelled=lambda: True)
+    exported = export(document, settings_of(document, tmp_path), cancelled=lambda: True)
     assert exported.files == ()
     assert names(tmp_path) == []
 
@@ -203,7 +205,7 @@ def test_an_error_in_the_window_stops_the_export_and_leaves_no_part(tmp_path):
         raise RuntimeError("the window has gone")
 
     with pytest.raises(RuntimeError, match="the window has gone"):
-        export_frames(document, settings_of(document, tmp_path), progress=progress)
+        export(document, settings_of(document, tmp_path), progress=progress)
     assert len(names(tmp_path)) < 40
     assert all(n.endswith(".png") and not n.startswith(".") for n in names(tmp_path))
 
@@ -218,10 +220,10 @@ def test_a_full_disk_is_one_sentence_and_the_frames_before_stay(tmp_path, monkey
         seen.append(target)
         replace_file(source, target)
 
-    monkeypatch.setattr(export.os, "replace", full_after_three)
-    monkeypatch.setattr(export, "MOST_ENCODERS", 1)
+    monkeypatch.setattr(whole.os, "replace", full_after_three)
+    monkeypatch.setattr(pool, "MOST_ENCODERS", 1)
     with pytest.raises(StorageError, match=r"^cannot write .*arm\.0004\.png: no space left on device$"):
-        export_frames(document, settings_of(document, tmp_path))
+        export(document, settings_of(document, tmp_path))
     assert names(tmp_path) == ["arm.0001.png", "arm.0002.png", "arm.0003.png"]
 
 
@@ -236,8 +238,8 @@ def test_a_file_cut_off_while_it_is_written_takes_nobodys_place(tmp_path):
         "signal.signal(signal.SIGXFSZ, signal.SIG_IGN); resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300)); "
         "sys.exit(main(sys.argv[1:]))"
     )
-    command = [sys.executable, "-c", script, "export", str(tmp_path / "a.inkb"), str(out)]
-    ended = subprocess.run(command, capture_output=True, text=True, cwd=Path(export.__file__).parents[2])
+    command = [sys.executable, "-c", script, "export", str(tmp_path / "a.inkb"), str(out), "--force"]
+    ended = subprocess.run(command, capture_output=True, text=True, cwd=Path(whole.__file__).parents[2])
     assert ended.returncode == 1
     assert ended.stderr == f"inkbetween: cannot write {out / 'a.0001.png'}: file too large\n"
     assert names(out) == ["a.0001.png"]
@@ -250,7 +252,7 @@ def test_a_file_in_the_folders_place_is_said_and_kept(tmp_path, below):
     blocking.write_text("mine")
     document = film()
     with pytest.raises(StorageError, match=r"cannot make the folder .*frames.*: a file is in the way"):
-        export_frames(document, settings_of(document, blocking / below))
+        export(document, settings_of(document, blocking / below))
     assert blocking.read_text() == "mine"
 
 
@@ -258,7 +260,7 @@ def test_a_folder_in_a_frames_place_is_said_and_kept(tmp_path):
     document = film()
     (tmp_path / "arm.0002.png").mkdir()
     with pytest.raises(StorageError, match=r"cannot write .*arm\.0002\.png: is a directory"):
-        export_frames(document, settings_of(document, tmp_path))
+        export(document, settings_of(document, tmp_path, replace=True))
     assert (tmp_path / "arm.0002.png").is_dir()
     assert not list(tmp_path.glob(".*"))
 
@@ -266,7 +268,7 @@ def test_a_folder_in_a_frames_place_is_said_and_kept(tmp_path):
 def test_frames_outside_the_film_are_refused_before_anything_is_made(tmp_path):
     document = film(length=24)
     with pytest.raises(InkbetweenError, match=r"frames 10 to 400 are not all in the film, which ends at 24"):
-        export_frames(document, settings_of(document, tmp_path / "new", first=10, last=400))
+        export(document, settings_of(document, tmp_path / "new", first=10, last=400))
     assert names(tmp_path) == []
 
 

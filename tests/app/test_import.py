@@ -1,8 +1,8 @@
 """What comes in from elsewhere, through the menus of the real window."""
 
+import json
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -133,24 +133,25 @@ def test_a_big_file_shows_its_progress_and_the_window_stays_awake(hand, big, qtb
     dialog = hand.editor.incoming.import_dialog
     assert isinstance(dialog, ImportDialog)
     assert dialog.isVisible()
-    beats: list[float] = []
+    done: list[int] = []  # how much of the work was done at each turn of the window's loop
     beat = QTimer(hand.editor)
-    beat.timeout.connect(lambda: beats.append(time.monotonic()))
+    beat.timeout.connect(lambda: done.append(dialog.bar.value()))
     beat.start(20)
-    qtbot.waitUntil(lambda: dialog.bar.value() > 300, timeout=20_000)
+    qtbot.waitUntil(lambda: dialog.bar.value() > 400, timeout=20_000)
+    beat.stop()
     hand.press_button(dialog.buttons.button(QDialogButtonBox.StandardButton.Cancel))
     arrived(hand, qtbot)
-    beat.stop()
     assert hand.message == "The import of big.svg was cancelled."
     assert hand.session.layer.keyframes == ()
-    assert len(beats) > 5
-    assert np.diff(beats).max() < 0.5
+    read = [share for share in done if share >= 250]  # the file is taken apart before, which is quick
+    assert len(read) > 3
+    assert np.diff(read).max() <= 100  # of 1000: the window never waits for more than a small part of the work
 
 
 def test_escape_cancels_and_a_second_import_waits_its_turn(hand, big, sketch, qtbot) -> None:
     hand.editor.incoming.import_path(big)
     hand.editor.incoming.import_path(sketch)
-    assert hand.message.startswith("Another SVG is being read")
+    assert hand.message.startswith("Another file is being read")
     QTest.keyClick(hand.editor.incoming.import_dialog, Qt.Key.Key_Escape)
     arrived(hand, qtbot)
     assert "cancelled" in hand.message
@@ -333,3 +334,42 @@ def test_a_picture_beside_the_project_moves_with_it(hand, photo, tmp_path) -> No
     assert hand.session.layer.keyframe_at(1).reference.path == str(moved / "photo.png")
     hand.session.save(tmp_path / "other.inkb")
     assert load(tmp_path / "other.inkb").layers[0].keyframes[0].reference.path == "elsewhere/photo.png"
+
+
+# Keyframes
+
+
+def test_a_dropped_folder_of_svg_becomes_a_layer_with_keyframes(hand, sketch, tmp_path, qtbot) -> None:
+    folder = tmp_path / "walk"
+    folder.mkdir()
+    for frame in (1, 9):
+        (folder / f"walk.{frame:04}.svg").write_bytes(sketch.read_bytes())
+    hand.session.go_to(3)
+    drop(hand, folder)
+    arrived(hand, qtbot)
+    assert hand.session.layer.name == "walk"
+    assert hand.session.layer.frames() == (3, 11)
+    assert hand.message.startswith("Imported walk as 1 layer with 2 keyframes")
+    hand.session.undo_stack.undo()
+    assert len(hand.session.document.layers) == 1
+
+
+def test_lottie_comes_in_by_the_menu_with_what_was_left_out_named(hand, tmp_path, monkeypatch, qtbot) -> None:
+    square = {"i": [[0, 0]] * 4, "o": [[0, 0]] * 4, "v": [[0, 0], [9, 0], [9, 9], [0, 9]], "c": True}
+    red = {"ty": "fl", "c": {"k": [1, 0, 0, 1]}, "o": {"k": 100}}
+    text = {"ty": 5, "nm": "t", "ip": 0, "op": 24, "ks": {}}
+    shape = {"ty": 4, "nm": "box", "ip": 0, "op": 24, "ks": {}, "shapes": [{"ty": "sh", "ks": {"k": square}}, red]}
+    animation = {"fr": 24, "ip": 0, "op": 24, "w": 100, "h": 100, "layers": [text, shape]}
+    (tmp_path / "box.json").write_text(json.dumps(animation))
+    choose(monkeypatch, tmp_path / "box.json")
+    hand.menu("file.import_lottie")
+    arrived(hand, qtbot)
+    assert hand.message == "Imported box.json as 1 layer with 1 keyframe; not taken over: a text."
+    assert hand.session.layer.keyframes[0].drawing.style.fill == "#ff0000"
+
+
+def test_a_folder_without_drawings_is_said_in_one_sentence(hand, tmp_path, monkeypatch, qtbot) -> None:
+    monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *a, **k: str(tmp_path))
+    hand.menu("file.import_folder")
+    arrived(hand, qtbot)
+    assert hand.message.startswith("There is no SVG file in the folder")

@@ -206,6 +206,42 @@ def test_the_stroke_of_a_picture_grows_with_the_transform():
     )
 
 
+def seen(picture, transform=IDENTITY, kind=QImage.Format.Format_ARGB32_Premultiplied):
+    """The pixels of a picture on nothing."""
+    image = QImage(640, 480, kind)
+    image.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(image)
+    paint_picture(painter, picture, transform)
+    painter.end()
+    return pixels(image)
+
+
+@pytest.mark.parametrize(
+    "kind", [QImage.Format.Format_ARGB32_Premultiplied, QImage.Format.Format_RGBA64_Premultiplied]
+)
+def test_a_thin_picture_is_the_full_one_with_less_alpha_and_its_fill_does_not_shine_through(kind):
+    shape = ((square(20, 20, 40), True), (square(100, 20, 40), True))
+    style = Style("#ff0000", "#0000ff", 12.0)
+    full = seen(Picture(shape, style), QTransform.fromScale(1.5, 1.5), kind)
+    thin = seen(Picture(shape, style, 0.5), QTransform.fromScale(1.5, 1.5), kind)
+    assert np.abs(thin[..., 3] - full[..., 3] / 2).max() <= 1
+    solid = full[..., 3] == 255
+    assert np.abs(thin[solid] - full[solid])[:, :3].max() <= 1
+    assert {tuple(p) for p in full[solid][:, :3]} >= {(255, 0, 0), (0, 0, 255)}
+    assert not seen(Picture(shape, style, 0.0)).any()
+
+
+def test_an_open_outline_is_a_stroke_with_round_ends_and_never_filled():
+    bent = np.array([(100.0, 100.0), (200.0, 100.0), (200.0, 200.0)])
+    line = seen(Picture(((bent, False),), Style("#ff0000", None, 20.0)))
+    assert tuple(line[100, 150]) == (255, 0, 0, 255)  # in the fill's colour where there is no other
+    assert line[140, 160, 3] == 0
+    assert line[100, 92, 3] == 255
+    assert line[91, 91, 3] == 0
+    stroked = seen(Picture(((bent, False),), Style("#ff0000", "#00ff00", 20.0)))
+    assert {tuple(p) for p in stroked[stroked[..., 3] == 255]} == {(0, 255, 0, 255)}
+
+
 @pytest.mark.parametrize(
     ("size", "corner", "opposite"),
     [((100, 50), (0, 0), (100, 50)), ((400, 100), (100, 0), (300, 100)), ((50, 100), (0, 37.5), (50, 62.5))],

@@ -5,7 +5,6 @@ import pytest
 from PySide6.QtCore import Qt
 
 from app.canvas.paths import vertex_ways
-from app.canvas.pins import frame_times
 from app.session import PinRef
 from core import load
 from core.model.document import Document
@@ -205,7 +204,7 @@ def test_the_ways_of_pins_and_of_vertices_are_painted(limbs) -> None:
 
 def test_the_ways_of_vertices_are_few_and_go_from_keyframe_to_keyframe(limbs) -> None:
     content = limbs.canvas.content
-    ways = vertex_ways(content.plan, frame_times(content.before, content.after))
+    ways = vertex_ways(content.motion, range(content.before.frame, content.after.frame + 1))
     assert ways.shape[0] == 25
     assert 20 < ways.shape[1] <= 40
     left = content.plan.links[0].aligned.left

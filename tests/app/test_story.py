@@ -433,11 +433,11 @@ def test_frames_are_exported_with_progress_and_the_window_stays_usable(hand, tmp
     two_keyframes(hand)
     hand.menu("file.export")
     dialog = hand.editor.export_dialog
-    dialog.folder.setText(str(tmp_path / "frames"))
-    dialog.name.setText("walk")
-    dialog.wide.setValue(320)
-    dialog.high.setValue(180)
-    dialog.last.setValue(6)
+    dialog.fields.place.setText(str(tmp_path / "frames"))
+    dialog.fields.name.setText("walk")
+    dialog.fields.wide.setValue(320)
+    dialog.fields.high.setValue(180)
+    dialog.fields.last.setValue(6)
     with qtbot.waitSignal(dialog.told, timeout=20_000) as told:
         hand.press_button(dialog.start_button)
         hand.session.go_to(7)  # while it runs
@@ -451,7 +451,7 @@ def test_a_cancelled_export_leaves_no_half_frame(hand, tmp_path: Path, qtbot: Qt
     hand.session.apply("Change Length", set_length, 500)
     hand.menu("file.export")
     dialog = hand.editor.export_dialog
-    dialog.folder.setText(str(tmp_path / "frames"))
+    dialog.fields.place.setText(str(tmp_path / "frames"))
     with qtbot.waitSignal(dialog.told, timeout=30_000) as told:
         hand.press_button(dialog.start_button)
         qtbot.waitUntil(lambda: dialog.bar.value() >= 1, timeout=20_000)
@@ -467,7 +467,7 @@ def test_a_folder_that_cannot_be_made_is_said_in_one_sentence(hand, tmp_path: Pa
     (tmp_path / "frames").write_text("in the way")
     hand.menu("file.export")
     dialog = hand.editor.export_dialog
-    dialog.folder.setText(str(tmp_path / "frames"))
+    dialog.fields.place.setText(str(tmp_path / "frames"))
     with qtbot.waitSignal(dialog.told, timeout=20_000) as told:
         hand.press_button(dialog.start_button)
     assert told.args[1] == "error"

@@ -176,16 +176,6 @@ def test_a_muted_anchor_that_is_not_there_is_refused():
         decode(content)
 
 
-def test_a_file_of_version_1_opens_for_ever():
-    first, last = rich().layers[1].keyframes
-    span = replace(first.span, easing=replace(first.span.easing, knots=()))
-    span = replace(span, placement="still", hold=False, step=1, exposures=())
-    drawing = replace(first.drawing, style=replace(first.drawing.style, opacity=1.0))
-    plain = replace(first, drawing=drawing, span=span, smooth=False)
-    front = Layer(3, rich().layers[1].name, True, (plain, last))
-    assert load(DATA / "version-1.inkb") == rich().with_layer(front)
-
-
 def test_every_truncation_is_refused():
     content = encode(rich())
     assert decode(content[:-1]) == rich()  # all but the last line break
@@ -487,7 +477,7 @@ def test_a_device_is_not_read_for_ever():
 def test_a_file_too_large_to_be_a_project_is_not_read(project):
     with project.open("r+b") as file:
         file.truncate(LARGEST_FILE + 1)
-    with pytest.raises(FileFormatError, match="larger than 512 MB"):
+    with pytest.raises(FileFormatError, match="larger than 128 MB"):
         load(project)
 
 

@@ -503,3 +503,36 @@ def test_too_many_layers_are_refused_as_a_whole():
 def test_every_refusal_is_an_error_of_ours_and_areas_keep_their_sign():
     assert issubclass(FileFormatError, InkbetweenError)
     assert math.isclose(float(signed_area(only(f'<path d="{SQUARE}"/>'))), 100)
+
+
+def style_sheet(text):
+    path = '<path class="a" d="M0 0h9v9z"/>'
+    return f'<svg xmlns="http://www.w3.org/2000/svg"><style>{text}</style>{path}</svg>'.encode()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x" * 2_000_000,
+        "/*" * 1_000_000,
+        "{" * 2_000_000,
+        "}" * 2_000_000,
+        ".a," * 19_000 + "b{" + "fill:red;" * 9_000 + "}",
+    ],
+    ids=["no rule", "remarks without end", "opened", "closed", "many selectors of one rule"],
+)
+def test_a_style_sheet_is_read_in_time_that_grows_with_its_length_only(text):
+    assert read_svg(style_sheet(text)).drawings[0].style.fill in ("#000000", "#ff0000")
+
+
+@pytest.mark.parametrize(
+    ("text", "fill"),
+    [
+        ("/* {fill:red} */ .a{fill:#123456} /* no end", "#123456"),
+        ("@media print{.a{fill:#123456}}", "#123456"),
+        (".a{fill:#111111}}.a{fill:#123456}", "#123456"),
+        ("{fill:#111111} path.a{fill:#123456} .a{fill:#222222}", "#123456"),
+    ],
+)
+def test_remarks_and_nested_braces_of_a_style_sheet_are_passed_over(text, fill):
+    assert read_svg(style_sheet(text)).drawings[0].style.fill == fill

@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.geometry.outline import signed_area
-from core.methods.plan import AlignedPair, inbetween, plan_drawing
+from core.methods.plan import AlignedPair, plan_drawing
+from core.repair.between import inbetween
 
 TIMES = np.linspace(0, 1, 9)
 

@@ -4,7 +4,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from core.geometry.outline import edge_lengths, signed_area
-from core.methods.plan import AlignedPair, inbetween, plan, plan_drawing
+from core.methods.plan import AlignedPair, plan, plan_drawing
+from core.repair.between import inbetween
 
 TIMES = np.linspace(0, 1, 9)
 SQUARE = np.array([[0.0, 0.0], [100.0, 0.0], [100.0, 100.0], [0.0, 100.0]])

@@ -7,7 +7,8 @@ from shapely.geometry import Polygon
 from core.errors import GeometryError
 from core.geometry.outline import points_at
 from core.methods.pins import Inside, OnOutline, Pin
-from core.methods.plan import METHODS, AlignedPair, inbetween, plan, plan_drawing
+from core.methods.plan import METHODS, AlignedPair, plan, plan_drawing
+from core.repair.between import inbetween
 
 TIMES = np.linspace(0.05, 0.95, 10)
 

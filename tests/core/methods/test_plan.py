@@ -6,7 +6,8 @@ import pytest
 
 import core
 from core.errors import GeometryError
-from core.methods.plan import METHODS, AlignedPair, inbetween, plan, plan_drawing
+from core.methods.plan import METHODS, AlignedPair, plan, plan_drawing
+from core.repair.between import inbetween
 
 SQUARE = np.array([[0.0, 0.0], [100.0, 0.0], [100.0, 100.0], [0.0, 100.0]])
 DIAMOND = np.array([[50.0, -20.0], [120.0, 50.0], [50.0, 120.0], [-20.0, 50.0]])

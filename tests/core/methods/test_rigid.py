@@ -4,8 +4,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely.geometry import Polygon
 
-from core.methods.plan import AlignedPair, inbetween, plan, plan_drawing
+from core.methods.plan import AlignedPair, plan, plan_drawing
 from core.methods.rigid import FELL_BACK
+from core.repair.between import inbetween
 
 TIMES = np.linspace(0, 1, 9)
 BEYOND = np.array([-1.5, -0.3, 0.0, 0.4, 1.0, 1.3, 2.5])

@@ -11,6 +11,7 @@ from core.certificate import certify_drawing
 from core.errors import CancelledError
 from core.geometry.crossings import is_simple
 from core.geometry.outline import signed_area
+from core.methods.pins import Inside, OnOutline, Pin
 from core.methods.plan import AlignedPair, plan, plan_drawing
 from core.repair.plan import plan_repair, repair_drawing
 from tests.core.repair.shapes import any_shape, circle, comb, spiral, untangled
@@ -166,6 +167,81 @@ def test_a_repaired_open_outline_does_not_cross_itself():
     repaired = plan_repair(found)
     assert repaired.notes == ()
     assert certify_drawing((repaired.evaluate(times),), (False,)).counts["crossing"].sum() == 0
+
+
+def random_pins(count, vertices, rng):
+    """Pins on vertices, on edges and one inside, some of them on arcs."""
+    places = [OnOutline(0, float(p)) for p in rng.choice(vertices * 4, count, replace=False) / 4]
+    if count > 1:
+        places[-1] = Inside(*rng.uniform(-20, 20, 2))
+    arcs = [tuple(map(tuple, rng.uniform(-100, 100, (2, 2)))) if rng.random() < 0.4 else None for _ in places]
+    return [Pin(place, arc) for place, arc in zip(places, arcs, strict=True)]
+
+
+def off_pins(found, frames, times):
+    """How far the pinned points are from where they must be, in sizes."""
+    held = found.drawing.paths.held
+    return np.abs(held.at(frames[..., 0] + 1j * frames[..., 1]) - held.wanted(times)).max() / np.ptp(frames[0])
+
+
+@given(
+    kinds,
+    kinds,
+    st.integers(4, 8),
+    st.integers(0, 2**32 - 1),
+    st.integers(1, 3),
+    st.sampled_from(["linear", "intrinsic", "rigid"]),
+)
+@settings(max_examples=2)
+def test_a_repair_leaves_every_pin_where_it_must_be_and_says_where_it_can_do_nothing(
+    kind, other, count, seed, pins, method
+):
+    rng = np.random.default_rng(seed)
+    a, b = any_shape(kind, 2 * count + 8, rng), any_shape(other, 2 * count + 8, rng)
+    assume(is_simple(a) and is_simple(b))
+    found = plan(a, b, method=method, pins=random_pins(pins, len(a), rng))
+    repaired = plan_repair(found)
+    times = np.concatenate([TIMES, rng.random(60)])
+    frames = repaired.evaluate(times)
+    assert off_pins(found, frames, times) < 1e-9
+    assert np.array_equal(frames[[0, 240]], [a, b])
+    if repaired.notes:
+        assert "pins" in repaired.notes[0]
+        assert not repaired.changed
+    else:
+        assert count_crossed(frames) == 0
+        wished = steps(found.evaluate(TIMES))
+        most = max(8.0, 2.1 * wished.max() / np.median(wished))
+        assert pins == 1 or steps(frames[:241]).max() <= most * np.median(steps(frames[:241]))
+
+
+def standing(left, right):
+    """A table with two feet and two spikes on it, their tips there."""
+    feet = [[80.0, 10], [80, 100], [70, 100], [70, 20], [10, 20], [10, 100], [0, 100]]
+    return np.array([[0.0, 10], [10, 10], left, [20, 10], [60, 10], right, [70, 10], *feet])
+
+
+@given(st.integers(0, 2**32 - 1))
+@settings(max_examples=4)
+def test_one_pin_never_stands_in_the_way_of_a_repair(seed):
+    rng = np.random.default_rng(seed)
+    a, b = standing([90, -120], [65, -20]), standing([15, -20], [-10, -120])
+    found = plan(a, b, method="linear", pins=random_pins(1, len(a), rng))
+    assert count_crossed(found.evaluate(TIMES)) > 20
+    repaired = plan_repair(found)
+    frames = repaired.evaluate(TIMES)
+    assert (repaired.notes, count_crossed(frames)) == ((), 0)
+    assert off_pins(found, frames, TIMES) < 1e-9
+
+
+def test_planted_feet_stay_planted_while_crossings_are_bent_away():
+    a, b = standing([90, -120], [65, -20]), standing([15, -20], [-10, -120])
+    found = plan(a, b, method="linear", pins=[Pin(OnOutline(0, 8.0)), Pin(OnOutline(0, 12.0))])
+    assert count_crossed(found.evaluate(TIMES)) > 20
+    repaired = plan_repair(found)
+    frames = repaired.evaluate(TIMES)
+    assert (repaired.notes, count_crossed(frames)) == ((), 0)
+    np.testing.assert_allclose(frames[:, [8, 12]], np.broadcast_to(a[[8, 12]], (241, 2, 2)), atol=1e-9 * 200)
 
 
 def test_nothing_needs_no_repair():
