@@ -36,6 +36,8 @@ class Keys(QObject):
         self.copied: tuple[CopiedKeyframe, ...] = ()
         self._remembered: list[tuple[Document, Chosen]] = []
         session.documentChanged.connect(self._on_document_changed)
+        session.frameChanged.connect(self._on_frame_changed)
+        session.selectionChanged.connect(self._on_selection_changed)
 
     # which
 
@@ -87,6 +89,17 @@ class Keys(QObject):
             self.chosen = chosen
             self.changed.emit()
 
+    def _on_frame_changed(self, frame: int) -> None:
+        """Give up a single one when the playhead leaves it: what is done next is meant for where one is now."""
+        if len(self.chosen) == 1 and not self.session.in_gesture and self.frames != (frame,):
+            self.choose(())
+
+    def _on_selection_changed(self) -> None:
+        """Give way to what is selected on the canvas."""
+        selection = self.session.selection
+        if selection.vertices or selection.anchor or selection.pin:
+            self.choose(())
+
     # what is done with them
 
     def delete(self) -> None:
@@ -121,6 +134,7 @@ class Keys(QObject):
             self.session.problem.emit(str(e))
             return
         self.session.apply(label, lambda _: document)
+        self.session.go_to(min(frame for _, frame in made))
         self.choose(made)
 
     def set_hold(self, hold: bool) -> None:

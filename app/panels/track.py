@@ -164,7 +164,8 @@ class Track(QWidget):
         elif key not in self.keys.chosen:
             self.keys.choose({key})
         if held & (CTRL | SHIFT):
-            self.session.go_to(key[1])
+            if key in self.keys.chosen:
+                self.session.go_to(key[1])
             return None
         return MoveKeys(self, at, key)
 

@@ -85,6 +85,10 @@ class SetRange(Drag):
         frame = min(max(self.view.frame_at(at.x()), 1), self.session.document.length)
         self.session.set_range((min(self.fixed, frame), max(self.fixed, frame)))
 
+    def release(self, at: QPointF) -> None:
+        if not self.going:
+            self.session.go_to(self.view.frame_at(at.x()))
+
     def cancel(self) -> None:
         self.session.set_range(self.before)
 
@@ -111,7 +115,7 @@ class _Edit(Drag):
 
     def show(self, edit, *args: object, places: dict[int, int]) -> bool:  # type: ignore[no-untyped-def]
         """Show an edit of the keyframes; while one drags on, nothing is said about one that is refused."""
-        if self.gesture is None:
+        if self.gesture is None or not self.gesture.open:
             return False
         keys = self.before
 
@@ -126,7 +130,7 @@ class _Edit(Drag):
         return True
 
     def release(self, at: QPointF) -> None:
-        if self.gesture is None:
+        if self.gesture is None or not self.gesture.open:
             return
         for changed in self.refused:  # this is what was wanted: now say why it cannot be
             self.gesture.update(changed)
