@@ -81,6 +81,7 @@ class Window(QMainWindow):
         self.easing_panel = EasingPanel(session, theme)
         self.certificate_panel = CertificatePanel(session, certificates, theme)
         self.certificate_panel.problemChosen.connect(self.canvas.mark)
+        self.timeline.track.problemChosen.connect(self.canvas.mark)
         self.drawing_panel = DrawingPanel(session, theme, *self._tolerance())
         self.reference_panel = ReferencePanel(session)
         self.setCentralWidget(self._central())

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from itertools import pairwise
 
-from PySide6.QtCore import QPointF, QRect, QRectF, QSize, Qt
+from PySide6.QtCore import QPointF, QRect, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
     QAction,
     QContextMenuEvent,
@@ -21,7 +21,7 @@ from app.panels import track_header, track_menus
 from app.panels.track_drags import Band, Drag, MoveKeys, MoveLayer, Scrub, SetRange, StretchKeys
 from app.panels.track_header import NameField
 from app.panels.track_picture import whole_picture
-from app.panels.track_rows import RowPainter
+from app.panels.track_rows import SEVERITY_COLORS, RowPainter
 from app.panels.track_ruler import paint_playhead, range_edge_under, small_font
 from app.panels.track_spot import Spot
 from app.panels.track_view import HEADER, ROW, RULER, TrackView
@@ -51,7 +51,12 @@ def _shown(document: Document, layers: frozenset[int]) -> list[object]:
 
 
 class Track(QWidget):
-    """Drag in the ruler to scrub, a keyframe to move the selected ones, anywhere else to select several."""
+    """Drag in the ruler to scrub, a keyframe to move the selected ones, anywhere else to select several.
+
+    `problemChosen` tells the place and the colour of the problem that a click on a bar went to.
+    """
+
+    problemChosen = Signal(object, str)
 
     def __init__(
         self,
@@ -200,6 +205,12 @@ class Track(QWidget):
         if drag is not None:
             drag.release(event.position())
             self.update()
+
+    def tell_problem(self, at: QPointF) -> None:
+        """Say where the problem is that a click here leads to, if there is one."""
+        problem = self._spot.problem(at)
+        if problem is not None:
+            self.problemChosen.emit(problem.place, SEVERITY_COLORS[problem.severity])
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         under = track_header.part_under(self.view, event.position())

@@ -208,6 +208,7 @@ class Band(Drag):
         if not self.going:
             self.keys.choose(self.kept)
             self.session.go_to(self.goal)
+            self.track.tell_problem(self.pressed)
 
     def cancel(self) -> None:
         self.keys.choose(self.before)

@@ -8,6 +8,7 @@ from app.panels.track_rows import BAR
 from app.panels.track_ruler import range_edge_under
 from app.panels.track_view import HEADER, RULER, TrackView
 from app.preview.certificates import CertificatePreview
+from core.certificate import Problem
 from core.model.checking import SpanCertificate, finding
 from core.model.frame_edits import KeyRef
 
@@ -51,6 +52,11 @@ class Spot:
         """Return the frame that a click goes to: on a problem's colour the worst one of that stretch."""
         frame, certificate = self.view.frame_at(at.x()), self._certificate(at)
         return certificate.worst_near(frame) if certificate else frame
+
+    def problem(self, at: QPointF) -> Problem | None:
+        """Return the problem of the frame that a click goes to."""
+        certificate = self._certificate(at)
+        return certificate.worst.get(self.goal(at)) if certificate else None
 
     def _certificate(self, at: QPointF) -> SpanCertificate | None:
         """Return the certificate of the span whose bar is there, if its layer is the active one."""

@@ -146,23 +146,38 @@ def _bezier(ends: FloatArray, u: FloatArray) -> FloatArray:
 
 
 def _split(piece: FloatArray, x: float) -> tuple[FloatArray, FloatArray]:
-    """Cut a piece at a ratio, after de Casteljau."""
+    """Cut a piece at a ratio."""
     low, high = 0.0, 1.0
     for _ in range(52):
         u = (low + high) / 2
         low, high = (u, high) if _bezier(piece[:, 0], np.array(u)) < x else (low, u)
-    u = (low + high) / 2
+    return _halved(piece, (low + high) / 2)
+
+
+def _halved(piece: FloatArray, u: float = 0.5) -> tuple[FloatArray, FloatArray]:
+    """Cut a piece at its parameter `u`, after de Casteljau."""
     rows = [piece]
     for _ in range(3):
         rows.append((1 - u) * rows[-1][:-1] + u * rows[-1][1:])
     return np.stack([r[0] for r in rows]), np.stack([r[-1] for r in rows[::-1]])
 
 
+def _tamed(piece: FloatArray, depth: int = 6) -> list[FloatArray]:
+    """Cut a piece until the handles of each part lie within its ratios; near the upright they are moved there."""
+    x0, x1, x2, x3 = piece[:, 0]
+    if depth == 0 or (x0 <= x1 <= x3 and x0 <= x2 <= x3):
+        tame = piece.copy()
+        tame[1:3, 0] = np.clip(piece[1:3, 0], x0, x3)
+        return [tame]
+    return [part for half in _halved(piece) for part in _tamed(half, depth - 1)]
+
+
 def _chained(pieces: Sequence[FloatArray]) -> Easing:
     """Return the easing of pieces that join from (0, 0) to (1, 1)."""
-    knots = tuple(Knot(*map(float, (*b[0], *a[2], *b[1]))) for a, b in pairwise(pieces))
-    ends = np.clip([pieces[0][1, 0], pieces[-1][2, 0]], 0, 1).tolist()
-    return Easing(ends[0], float(pieces[0][1, 1]), ends[1], float(pieces[-1][2, 1]), knots)
+    tame = [part for piece in pieces for part in _tamed(piece)]
+    knots = tuple(Knot(*map(float, (*b[0], *a[2], *b[1]))) for a, b in pairwise(tame))
+    ends = np.clip([tame[0][1, 0], tame[-1][2, 0]], 0, 1).tolist()
+    return Easing(ends[0], float(tame[0][1, 1]), ends[1], float(tame[-1][2, 1]), knots)
 
 
 def _slope(piece: FloatArray) -> float:

@@ -136,6 +136,26 @@ def test_hovering_a_coloured_frame_names_its_problem_and_a_click_goes_there(cros
     assert track.toolTip() == ""
 
 
+def test_a_click_on_amber_or_red_goes_to_the_worst_of_these_frames_and_rings_its_place(hand, qtbot):
+    hand.session.new(swing(1.9))
+    hand.certify(qtbot)
+    found = hand.editor.certificates.of(*hand.session.layer.keyframes)
+    first, last, _ = next(run for run in found.runs if run[2] == "warning" and run[0] < run[1])
+    track, at = spot(hand, first)
+    QTest.mouseClick(track, LEFT, NONE, at)
+    assert first < hand.session.frame == found.worst_near(first) <= last
+    assert hand.canvas.marked == (found.worst[hand.session.frame].place, "warning")
+
+
+def test_where_a_bar_is_green_a_click_goes_to_the_frame_itself(hand, qtbot):
+    hand.session.new(swing(0.3))
+    hand.certify(qtbot)
+    track, at = spot(hand, 9)
+    QTest.mouseClick(track, LEFT, NONE, at)
+    assert hand.session.frame == 9
+    assert hand.canvas.marked is None
+
+
 # the panel
 
 

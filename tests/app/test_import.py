@@ -3,7 +3,6 @@
 import json
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -134,18 +133,19 @@ def test_a_big_file_shows_its_progress_and_the_window_stays_awake(hand, big, qtb
     dialog = hand.editor.incoming.import_dialog
     assert isinstance(dialog, ImportDialog)
     assert dialog.isVisible()
-    beats: list[float] = []
+    done: list[int] = []  # how much of the work was done at each turn of the window's loop
     beat = QTimer(hand.editor)
-    beat.timeout.connect(lambda: beats.append(time.monotonic()))
+    beat.timeout.connect(lambda: done.append(dialog.bar.value()))
     beat.start(20)
-    qtbot.waitUntil(lambda: dialog.bar.value() > 300, timeout=20_000)
+    qtbot.waitUntil(lambda: dialog.bar.value() > 400, timeout=20_000)
+    beat.stop()
     hand.press_button(dialog.buttons.button(QDialogButtonBox.StandardButton.Cancel))
     arrived(hand, qtbot)
-    beat.stop()
     assert hand.message == "The import of big.svg was cancelled."
     assert hand.session.layer.keyframes == ()
-    assert len(beats) > 5
-    assert np.diff(beats).max() < 0.5
+    read = [share for share in done if share >= 250]  # the file is taken apart before, which is quick
+    assert len(read) > 3
+    assert np.diff(read).max() <= 100  # of 1000: the window never waits for more than a small part of the work
 
 
 def test_escape_cancels_and_a_second_import_waits_its_turn(hand, big, sketch, qtbot) -> None:
