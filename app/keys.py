@@ -42,8 +42,8 @@ class Keys(QObject):
     # which
 
     def choose(self, keys: Iterable[KeyRef]) -> None:
-        """Select exactly these keyframes."""
-        chosen = frozenset(keys)
+        """Select exactly these keyframes, of which those that are there count."""
+        chosen = frozenset(keys) & _there(self.session.document)
         if not self.session.in_gesture:
             self._remembered = [(d, c) for d, c in self._remembered if d is not self.session.document]
             self._remembered = [*self._remembered, (self.session.document, chosen)][-MOST_REMEMBERED:]
@@ -83,8 +83,7 @@ class Keys(QObject):
 
     def _on_document_changed(self, diff: DocumentDiff) -> None:
         known = next((c for d, c in self._remembered if d is diff.after), None)
-        there = {(x.id, f) for x in diff.after.layers for f in x.frames()} if self.chosen else set()
-        chosen = self.chosen & there if known is None else known
+        chosen = self.chosen & _there(diff.after) if known is None else known
         if chosen != self.chosen:
             self.chosen = chosen
             self.changed.emit()
@@ -145,6 +144,10 @@ class Keys(QObject):
         if keys := self.acted_on():
             label = "Smooth" if smooth else "Sharpen"
             self.session.apply(_many(f"{label} Keyframe", keys), smooth_keyframes, keys, smooth)
+
+
+def _there(document: Document) -> Chosen:
+    return frozenset((x.id, frame) for x in document.layers for frame in x.frames())
 
 
 def _many(label: str, keys: Iterable[object]) -> str:

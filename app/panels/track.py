@@ -133,6 +133,8 @@ class Track(QWidget):
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         if event.button() == Qt.MouseButton.LeftButton:
+            if self._drag is not None:  # whose release another window has got
+                self._drag.release(event.position())
             self._drag = self._begun(event.position(), event.modifiers())
             self.update()
 
@@ -247,6 +249,8 @@ class Track(QWidget):
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         at = QPointF(event.pos())
+        if self._drag is not None:
+            return
         row = self.view.row_at(at.y())
         if row is not None:
             self.session.set_layer(self.view.rows[row].id)

@@ -215,6 +215,21 @@ def test_an_edit_in_the_middle_of_a_drag_ends_it(timeline):
     assert timeline.frames(2) == (5, 20, 25)
 
 
+def test_what_is_deleted_between_press_and_move_is_not_moved(timeline):
+    timeline.click(timeline.key(2, 13))
+    QTest.mousePress(timeline.track, LEFT, NONE, timeline.key(2, 13))
+    timeline.press_key(Key.Key_Delete)
+    move_pointer(timeline.track, timeline.key(2, 20), NONE, LEFT)
+    QTest.mouseRelease(timeline.track, LEFT, NONE, timeline.key(2, 20))
+    assert (timeline.frames(2), timeline.steps) == ((5, 25), 1)
+
+
+def test_a_press_after_a_lost_release_keeps_what_was_dragged(timeline):
+    timeline.drag(timeline.key(2, 13), timeline.key(2, 20), drop=False)
+    timeline.click(timeline.ruler(3))
+    assert (timeline.frames(2), timeline.steps, timeline.session.in_gesture) == ((5, 20, 25), 1, False)
+
+
 def test_moving_a_keyframe_solves_nothing_again_and_redrawing_it_only_its_two_spans(timeline, monkeypatch, qtbot):
     solved = []
 
