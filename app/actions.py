@@ -153,6 +153,14 @@ ACTIONS: tuple[ActionSpec, ...] = (
         tip="The ways of some vertices through the span, with a dot a frame",
     ),
     ActionSpec(
+        "view.sheet",
+        "View",
+        "Exposure Sheet",
+        ("X", "Ctrl+Shift+X"),
+        checkable=True,
+        tip="The film as a table of frames and layers, in which drawings are held, moved and taken out",
+    ),
+    ActionSpec(
         "view.final", "View", "Final Look", ("F9",), "visible", checkable=True, tip="As exported, without helpers"
     ),
     _line("View"),
@@ -231,6 +239,15 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec("layer.show", "Layer", "Show Layer", checkable=True),
     ActionSpec("layer.lock", "Layer", "Lock Layer", checkable=True, tip="The layer is seen, but not changed"),
     ActionSpec("layer.solo", "Layer", "Solo Layer", checkable=True, tip="Show this layer alone"),
+    ActionSpec(
+        "key.smooth_layer",
+        "Draw",
+        "Smooth Layer",
+        tip="Let the motion go through all keyframes of the layer without a jump in its velocity",
+    ),
+    ActionSpec(
+        "key.sharp_layer", "Draw", "Sharp Layer", tip="Let every span of the layer start and end on its own"
+    ),
     ActionSpec(
         "insert.letters",
         "Insert",

@@ -46,12 +46,7 @@ SPAN_ACTIONS = (
     "span.shift_back",
     "view.compare",
 )
-METHOD_ACTIONS = {
-    "linear": "span.linear",
-    "intrinsic": "span.intrinsic",
-    "rigid": "span.rigid",
-    "auto": "span.auto",
-}
+METHOD_ACTIONS = {method: f"span.{method}" for method in ("linear", "intrinsic", "rigid", "auto")}
 
 
 class Editor(QObject):
@@ -163,6 +158,7 @@ class Editor(QObject):
             "view.hues": lambda: view.set(hues=not view.options.hues),
             "view.heat": lambda: view.set(heat=not view.options.heat),
             "view.paths": lambda: view.set(paths=not view.options.paths),
+            "view.sheet": lambda: view.set(sheet=not view.options.sheet),
             "view.final": lambda: view.set(final=not view.options.final),
             "view.fit": canvas.fit,
             "view.zoom_in": lambda: canvas.zoom(1.25),
@@ -179,6 +175,8 @@ class Editor(QObject):
             "key.add": lambda: editing.add_keyframe(session, self.preview.motions),
             "key.copy": lambda: editing.copy_to_other_keyframe(session),
             "key.delete": lambda: editing.delete_current_keyframe(session),
+            "key.smooth_layer": lambda: editing.set_layer_smooth(session, True),
+            "key.sharp_layer": lambda: editing.set_layer_smooth(session, False),
             "span.other_way": lambda: matching.turn_other_way(session, self.preview),
             "span.clear": lambda: self._in_span("Clear Anchors", clear_anchors),
             "span.clear_pins": lambda: self._in_span("Clear Pins", clear_pins),
@@ -271,6 +269,7 @@ class Editor(QObject):
         table["view.hues"].setChecked(options.hues)
         table["view.heat"].setChecked(options.heat)
         table["view.paths"].setChecked(options.paths)
+        table["view.sheet"].setChecked(options.sheet)
         table["view.final"].setChecked(options.final)
         table[ARRANGEMENT_ACTIONS[options.arrangement]].setChecked(True)
         self._show_playing()

@@ -9,7 +9,7 @@ from app.tools.select import delete_selected_vertices, outline_of
 from core.model.breakdowns import add_breakdown
 from core.model.document import Document, Keyframe
 from core.model.drawing import Drawing, Outline
-from core.model.edits import add_outline, delete_keyframe, delete_vertices, put_drawing, set_span
+from core.model.edits import add_outline, delete_keyframe, delete_vertices, put_drawing, set_smooth, set_span
 from core.model.motion import Motions
 
 PASTE_SHIFT = 12.0
@@ -175,3 +175,9 @@ def go_to_keyframe(session: Session, step: int) -> None:
     frames = [f for f in session.layer.frames() if (f - session.frame) * step > 0]
     if frames:
         session.go_to(min(frames) if step > 0 else max(frames))
+
+
+def set_layer_smooth(session: Session, smooth: bool) -> None:
+    """Let the motion go through every keyframe of the active layer smoothly, or let all be sharp."""
+    text = "Smooth Layer" if smooth else "Sharp Layer"
+    session.apply(text, set_smooth, session.layer.id, session.layer.frames(), smooth)

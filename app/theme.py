@@ -168,6 +168,7 @@ QToolButton:checked {{ background: {t.accent}; color: {t.accent_text}; border-co
 QToolButton:disabled, QCheckBox:disabled {{ color: {t.muted}; }}
 QToolButton:checked:disabled {{ background: {t.line}; border-color: {t.line}; }}
 QToolButton:focus, QPushButton:focus {{ border-color: {t.accent}; }}
+QToolButton[arrow="true"] {{ border: none; padding: 0; color: {t.muted}; font-size: 11px; }}
 QToolButton[segment="true"] {{ padding: 5px 6px; min-height: 18px; }}
 QToolButton[picture="true"] {{ background: {t.raised}; border-color: {t.line}; color: {t.muted};
     font-size: 10px; padding: 2px; }}
@@ -221,6 +222,15 @@ QScrollBar::handle {{ background: {t.line}; border-radius: 5px; min-height: 24px
 QScrollBar::handle:hover {{ background: {t.muted}; }}
 QScrollBar::add-line, QScrollBar::sub-line, QScrollBar::add-page, QScrollBar::sub-page {{
     background: none; border: none; width: 0; height: 0; }}
+QWidget#sheet {{ background: {t.panel}; border-left: 1px solid {t.line}; }}
+QTableView {{ background: {t.panel}; border: none; outline: none; }}
+QHeaderView, QTableCornerButton::section {{ background: {t.panel}; border: none; }}
+QHeaderView::section {{ background: {t.panel}; color: {t.muted}; border: none; font-size: 11px; padding: 0 4px; }}
+QHeaderView::section:horizontal {{ border-bottom: 1px solid {t.line}; border-right: 1px solid {t.line};
+    padding: 4px; }}
+QHeaderView::section:vertical {{ border-right: 1px solid {t.line}; }}
+QHeaderView::section:checked {{ color: {t.text}; background: {t.raised}; font-weight: 600; }}
+QLineEdit[cell="true"] {{ border-radius: 2px; padding: 0; min-height: 0; }}
 QFrame#messagebar {{ background: {t.raised}; border: 1px solid {t.line}; border-radius: 8px; }}
 QFrame#messagebar[kind="error"] {{ border-color: {t.error}; }}
 QFrame#messagebar[kind="info"] {{ border-color: {t.accent}; }}

@@ -30,6 +30,8 @@ class ViewOptions:
         The in-between's outline is coloured by the stretch of its edges.
     paths : bool
         The ways of some vertices through the span are drawn.
+    sheet : bool
+        The exposure sheet is open.
     final : bool
         Paint as exported, without keyframes and helpers.
     """
@@ -43,6 +45,7 @@ class ViewOptions:
     hues: bool = False
     heat: bool = False
     paths: bool = False
+    sheet: bool = False
     final: bool = False
 
 
@@ -61,6 +64,7 @@ class ViewState(QObject):
             hues=settings.flag("view/hues", d.hues),
             heat=settings.flag("view/heat", d.heat),
             paths=settings.flag("view/paths", d.paths),
+            sheet=settings.flag("view/sheet", d.sheet),
             onion_before=int(settings.number("view/onion_before", d.onion_before, 0, 12)),
             onion_after=int(settings.number("view/onion_after", d.onion_after, 0, 12)),
             onion_strength=settings.number("view/onion_strength", d.onion_strength, 0.05, 1),

@@ -18,14 +18,17 @@ from PySide6.QtWidgets import (
 
 from app.actions import ACTIONS, MENUS, ActionTable
 from app.canvas.canvas import Canvas
+from app.foldings import remember_foldings
 from app.keys import Keys
 from app.panels.alternatives import AlternativesPanel
 from app.panels.certificate import CertificatePanel
 from app.panels.drawing import DrawingPanel
 from app.panels.easing import EasingPanel
+from app.panels.layer import LayerPanel
 from app.panels.messagebar import Choice, MessageBar
-from app.panels.parts import separator
+from app.panels.parts import Section, separator
 from app.panels.reference import ReferencePanel
+from app.panels.sheet import SheetPanel
 from app.panels.span import SpanPanel
 from app.panels.timeline import Timeline, action_button
 from app.playback import Playback
@@ -44,6 +47,7 @@ from app.view import ViewState
 
 SIDE_WIDTH = 312
 TOOLBOX_WIDTH = 52
+SHEET_WIDTH = 260
 
 
 class Window(QMainWindow):
@@ -83,7 +87,9 @@ class Window(QMainWindow):
         self.certificate_panel.problemChosen.connect(self.canvas.mark)
         self.timeline.track.problemChosen.connect(self.canvas.mark)
         self.drawing_panel = DrawingPanel(session, theme, *self._tolerance())
+        self.layer_panel = LayerPanel(session, theme)
         self.reference_panel = ReferencePanel(session)
+        self.sheet = SheetPanel(session, theme, self.table.actions)
         self.setCentralWidget(self._central())
         self.message_bar = MessageBar(self.canvas, theme)
         self._make_status_bar()
@@ -108,9 +114,22 @@ class Window(QMainWindow):
         self.split.setStretchFactor(0, 1)
         self.split.setSizes([660, 190])
         row.addWidget(self._toolbox())
-        row.addWidget(self.split, 1)
+        row.addWidget(self._beside_sheet(), 1)
         row.addWidget(self._side())
         return central
+
+    def _beside_sheet(self) -> QWidget:
+        """Canvas and timeline, with the exposure sheet to the right when it is open."""
+        across = QSplitter(Qt.Orientation.Horizontal)
+        across.setHandleWidth(1)
+        across.setChildrenCollapsible(False)
+        across.addWidget(self.split)
+        across.addWidget(self.sheet)
+        across.setStretchFactor(0, 1)
+        across.setSizes([800, SHEET_WIDTH])
+        self.sheet.setVisible(self.view_state.options.sheet)
+        self.view_state.changed.connect(lambda: self.sheet.setVisible(self.view_state.options.sheet))
+        return across
 
     def _toolbox(self) -> QWidget:
         box = QWidget()
@@ -144,11 +163,13 @@ class Window(QMainWindow):
         column = QVBoxLayout(inner)
         column.setContentsMargins(0, 4, 0, 12)
         column.setSpacing(4)
-        for panel in (self.span_panel, self.easing_panel, self.certificate_panel, self.drawing_panel):
+        panels = self.span_panel, self.easing_panel, self.certificate_panel, self.drawing_panel, self.layer_panel
+        for panel in panels:
             column.addWidget(panel)
             column.addWidget(separator())
         column.addWidget(self.reference_panel)
         column.addStretch(1)
+        remember_foldings(inner.findChildren(Section), self.settings)
         scroll = QScrollArea()
         scroll.setWidgetResizable(True)
         scroll.setFrameShape(QFrame.Shape.NoFrame)
@@ -237,7 +258,7 @@ class Window(QMainWindow):
         self.setStyleSheet(style_sheet(theme))
         self.table.set_theme(theme)
         panels = (self.alternatives_panel, self.easing_panel, self.certificate_panel, self.drawing_panel)
-        for part in (self.canvas, self.timeline, *panels, self.message_bar):
+        for part in (self.canvas, self.timeline, *panels, self.layer_panel, self.sheet, self.message_bar):
             part.set_theme(theme)
 
     def closeEvent(self, event: QCloseEvent) -> None:

@@ -1,223 +1,209 @@
-"""The easing of a span: presets, a curve with two handles, and the timing chart that follows from it."""
+"""The easing of a span: presets, the curve, and beside it the timing chart, two views of one thing."""
 
-from dataclasses import replace
+from collections.abc import Callable
 
-import numpy as np
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPen, QPolygonF
-from PySide6.QtWidgets import QComboBox, QSizePolicy, QWidget
+from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QWidget
 
-from app.panels.parts import Section
+from app.panels.chart import TimingChart
+from app.panels.curve import EasingPlot
+from app.panels.parts import Section, Segments, flat_button, label, number_field
+from app.panels.spacing import Spacing
 from app.session import Gesture, Session
 from app.theme import Theme
+from core.model.document import LONGEST_STEP, Document, Keyframe, Span
 from core.model.easing import PRESETS, Easing, preset_name
-from core.model.edits import set_span
+from core.model.edits import delete_tick, divide_tick, move_tick, set_smooth, set_span, set_step
+from core.model.sheet_edits import hold_over
 
+Edit = Callable[..., Document]
 OWN_CURVE = "own curve"
-MARGIN = 14.0
-CHART = 58.0
-REACH = 12.0
-LOW, HIGH = -0.5, 1.5
-
-
-class EasingPlot(QWidget):
-    """The curve t over ratio with its handles; beside it the frames as ticks, as animators draw a timing chart.
-
-    `handleMoved` tells every step of a drag, `released` its end, `escaped` that it shall not have been.
-    """
-
-    handlePressed = Signal()
-    handleMoved = Signal(object)  # Easing
-    released = Signal()
-    escaped = Signal()
-
-    def __init__(self, theme: Theme, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.theme = theme
-        self.easing = Easing()
-        self.frames = (1, 24)
-        self.ratio: float | None = None
-        self._held: int | None = None
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setMouseTracking(True)
-        self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
-        self.setToolTip("Drag the two handles; the ticks on the right are the frames of the span")
-
-    def sizeHint(self) -> QSize:
-        return QSize(240, 112)
-
-    def show_easing(self, easing: Easing, frames: tuple[int, int], ratio: float | None) -> None:
-        if (easing, frames, ratio) != (self.easing, self.frames, self.ratio):
-            self.easing, self.frames, self.ratio = easing, frames, ratio
-            self.update()
-
-    def _plot(self) -> QRectF:
-        return QRectF(0.5, 0.5, self.width() - CHART, self.height() - 1)
-
-    def _spread(self) -> tuple[float, float]:
-        """The range of t that is shown: 0 to 1, or more where a handle goes beyond."""
-        return min(0.0, self.easing.y1, self.easing.y2, LOW if self._held else 0.0), max(
-            1.0, self.easing.y1, self.easing.y2
-        )
-
-    def place(self, x: float, y: float) -> QPointF:
-        """Return where (ratio, t) lies in the widget."""
-        box = self._plot().adjusted(MARGIN, MARGIN, -MARGIN, -MARGIN)
-        low, high = self._spread()
-        return QPointF(box.left() + x * box.width(), box.bottom() - (y - low) / (high - low) * box.height())
-
-    def handle_places(self) -> tuple[QPointF, QPointF]:
-        e = self.easing
-        if e.is_linear:
-            return self.place(1 / 3, 1 / 3), self.place(2 / 3, 2 / 3)  # else they would lie on the ends
-        return self.place(e.x1, e.y1), self.place(e.x2, e.y2)
-
-    def mousePressEvent(self, event: QMouseEvent) -> None:
-        for i, place in enumerate(self.handle_places()):
-            d = place - event.position()
-            if d.x() ** 2 + d.y() ** 2 <= REACH**2:
-                self._held = i + 1
-                self.handlePressed.emit()
-                return
-
-    def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        if self._held is None:
-            near = any((p - event.position()).manhattanLength() <= REACH for p in self.handle_places())
-            self.setCursor(Qt.CursorShape.SizeAllCursor if near else Qt.CursorShape.ArrowCursor)
-            return
-        box = self._plot().adjusted(MARGIN, MARGIN, -MARGIN, -MARGIN)
-        low, high = self._spread()
-        x = min(max((event.position().x() - box.left()) / box.width(), 0.0), 1.0)
-        y = low + (box.bottom() - event.position().y()) / box.height() * (high - low)
-        y = min(max(y, LOW), HIGH)
-        base = Easing(1 / 3, 1 / 3, 2 / 3, 2 / 3) if self.easing.is_linear else self.easing
-        x, y = round(x, 3), round(y, 3)
-        self.handleMoved.emit(replace(base, x1=x, y1=y) if self._held == 1 else replace(base, x2=x, y2=y))
-
-    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        if self._held is not None:
-            self._held = None
-            self.released.emit()
-            self.update()
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        if event.key() == Qt.Key.Key_Escape and self._held is not None:
-            self._held = None
-            self.escaped.emit()
-        else:
-            super().keyPressEvent(event)
-
-    def paintEvent(self, _: object) -> None:
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        theme = self.theme
-        painter.setPen(QPen(theme.color("line"), 1))
-        painter.setBrush(theme.color("raised"))
-        painter.drawRoundedRect(self._plot(), 7, 7)
-        self._paint_curve(painter)
-        self._paint_chart(painter)
-        painter.end()
-
-    def _paint_curve(self, painter: QPainter) -> None:
-        theme, enabled = self.theme, self.isEnabled()
-        if not enabled:
-            return
-        x = np.linspace(0, 1, 65)
-        curve = QPolygonF([self.place(*p) for p in zip(x, self.easing.t_at(x), strict=True)])
-        if self.ratio is not None:
-            at = self.place(self.ratio, 0).x()
-            painter.setPen(QPen(theme.color("accent", 0.5), 1))
-            painter.drawLine(QPointF(at, self._plot().top() + 4), QPointF(at, self._plot().bottom() - 4))
-        painter.setPen(QPen(theme.color("accent"), 2.2))
-        painter.drawPolyline(curve)
-        for end, handle in zip((self.place(0, 0), self.place(1, 1)), self.handle_places(), strict=True):
-            painter.setPen(QPen(theme.color("accent", 0.45), 1))
-            painter.drawLine(end, handle)
-            painter.setPen(QPen(theme.color("accent"), 1.8))
-            painter.setBrush(theme.color("panel"))
-            painter.drawEllipse(handle, 4.5, 4.5)
-
-    def _paint_chart(self, painter: QPainter) -> None:
-        if not self.isEnabled():
-            return
-        theme = self.theme
-        first, last = self.frames
-        x = self.width() - CHART / 2
-        top, bottom = 10.0, self.height() - 10.0
-        painter.setPen(QPen(theme.color("text"), 1.4))
-        painter.drawLine(QPointF(x, top), QPointF(x, bottom))
-        count = last - first
-        ratios = np.arange(count + 1) / max(count, 1)
-        for i, t in enumerate(np.clip(self.easing.t_at(ratios), 0, 1)):
-            half = 9 if i in (0, count) else 5
-            y = bottom - float(t) * (bottom - top)
-            painter.drawLine(QPointF(x - half, y), QPointF(x + half, y))
-        font = painter.font()
-        font.setPixelSize(10)
-        painter.setFont(font)
-        painter.setPen(theme.color("muted"))
-        painter.drawText(QPointF(x + 12, bottom + 4), str(first))
-        painter.drawText(QPointF(x + 12, top + 4), str(last))
+HOLD = "hold"
+MOVE = "Move Drawing in Chart"
+STEPS = (
+    ("1", "on ones", "A new drawing on every frame"),
+    ("2", "twos", "A new drawing on every second frame"),
+    ("3", "threes", "A new drawing on every third frame"),
+)
+SMOOTH_TIP = (
+    "Smooth: the motion goes through keyframe {0} without a jump in its velocity.\n"
+    "Sharp (off): what comes before and what comes after know nothing of each other."
+)
 
 
 class EasingPanel(Section):
-    """Presets and the plot, for the span under the playhead."""
+    """For the span under the playhead."""
 
     def __init__(self, session: Session, theme: Theme, parent: QWidget | None = None) -> None:
         super().__init__("Easing", parent)
         self.session = session
         self._gesture: Gesture | None = None
-        self.presets = QComboBox()
-        self.presets.addItems([*PRESETS, OWN_CURVE])
-        self.presets.setToolTip("How the drawings are spaced between the two keyframes")
-        self.presets.activated.connect(self._on_preset)
-        self.plot = EasingPlot(theme)
-        self.box.addWidget(self.presets)
-        self.box.addWidget(self.plot)
-        self.plot.handlePressed.connect(self._on_pressed)
-        self.plot.handleMoved.connect(self._on_moved)
-        self.plot.released.connect(lambda: self._end(keep=True))
-        self.plot.escaped.connect(lambda: self._end(keep=False))
+        self._frame: int | None = None
+        self._make_presets()
+        self.plot, self.chart = EasingPlot(theme), TimingChart(theme)
+        views = QHBoxLayout()
+        views.setSpacing(4)
+        views.addWidget(self.plot, 1)
+        views.addWidget(self.chart)
+        self.box.addLayout(views)
+        self._make_drawing_row()
+        self._make_smooth_row()
+        self._connect_views()
         for signal in (session.documentChanged, session.frameChanged, session.layerChanged):
             signal.connect(self._refresh)
         self._refresh()
 
+    def _make_presets(self) -> None:
+        self.presets = QComboBox()
+        self.presets.addItems([*PRESETS, HOLD, OWN_CURVE])
+        self.presets.setToolTip("How the drawings are spaced between the two keyframes")
+        self.presets.activated.connect(self._on_preset)
+        self.box.addWidget(self.presets)
+        self.steps = Segments(STEPS)
+        self.steps.chosen.connect(lambda step: self._on_step(int(step)))
+        self.step_field = number_field(
+            0, LONGEST_STEP, "Frames that each drawing is held; own: the timing chart says so", self._on_step, 52
+        )
+        self.step_field.setSpecialValueText("own")
+        row = QHBoxLayout()
+        row.setSpacing(6)
+        row.addWidget(self.steps, 1)
+        row.addWidget(self.step_field)
+        self.box.addLayout(row)
+
+    def _make_drawing_row(self) -> None:
+        """The drawing at the playhead: how long it is held; and what divides the way to the next one."""
+        self.half = flat_button("Half", "Add a drawing in the middle between this one and the next")
+        self.thirds = flat_button("Thirds", "Add two drawings between this one and the next")
+        self.delete = flat_button("Delete", "Take this drawing out; the one before is held in its place")
+        self.half.clicked.connect(lambda: self._divide(self._here(), 2))
+        self.thirds.clicked.connect(lambda: self._divide(self._here(), 3))
+        self.delete.clicked.connect(lambda: self._delete(self._here()))
+        self.held_field = number_field(
+            1, LONGEST_STEP, "Frames that the drawing at the playhead is held", self._on_held, 44
+        )
+        row = QHBoxLayout()
+        row.setSpacing(4)
+        row.addWidget(label("held", "muted"))
+        row.addWidget(self.held_field)
+        row.addStretch(1)
+        for button in (self.half, self.thirds, self.delete):
+            row.addWidget(button)
+        self.box.addLayout(row)
+
+    def _make_smooth_row(self) -> None:
+        self.smooth = (QCheckBox(), QCheckBox())
+        for i, box in enumerate(self.smooth):
+            box.clicked.connect(lambda on, i=i: self._on_smooth(i, on))
+        self.add_row("smooth through", *self.smooth)
+
+    def _connect_views(self) -> None:
+        plot, chart = self.plot, self.chart
+        plot.pressed.connect(lambda: self._begin("Change Easing"))
+        plot.moved.connect(lambda easing: self._update(set_span, easing=easing))
+        plot.changed.connect(self._on_curve_changed)
+        plot.refused.connect(self.session.problem)
+        chart.pressed.connect(lambda: self._begin(MOVE))
+        chart.moved.connect(lambda index, t: self._update(move_tick, index, t))
+        for view in (plot, chart):
+            view.released.connect(lambda: self._end(keep=True))
+            view.escaped.connect(lambda: self._end(keep=False))
+        chart.frameWanted.connect(self.session.go_to)
+        chart.nudged.connect(lambda i, t: self._apply(MOVE, move_tick, i, t, key=("tick", i)))
+        chart.exposureWanted.connect(self._hold)
+        chart.divisionWanted.connect(self._divide)
+        chart.deletionWanted.connect(self._delete)
+        chart.hovered.connect(self._on_hovered)
+
     def set_theme(self, theme: Theme) -> None:
-        self.plot.theme = theme
-        self.plot.update()
+        self.plot.set_theme(theme)
+        self.chart.set_theme(theme)
+
+    # showing
 
     def _refresh(self, *_: object) -> None:
         before, after = self.session.span_keyframes()
         there = before is not None and after is not None
-        self.presets.setEnabled(there)
-        self.plot.setEnabled(there)
-        if before is None or after is None:
-            self.plot.show_easing(Easing(), (1, 1), None)
-            return
-        easing = before.span.easing
-        self.presets.setCurrentText(preset_name(easing) or OWN_CURVE)
-        ratio = (self.session.frame - before.frame) / (after.frame - before.frame)
-        self.plot.show_easing(easing, (before.frame, after.frame), ratio)
+        spacing = None
+        if there:
+            spacing = Spacing(before.span, before.frame, after.frame, self.session.frame)
+        self._frame = before.frame if there else None
+        for widget in (self.presets, self.plot, self.chart):
+            widget.setEnabled(there)
+        self.plot.show_spacing(spacing)
+        self.chart.show_spacing(spacing)
+        self._show_choices(before.span if there else Span(), charted=there)
+        self._show_drawing(spacing)
+        self._show_smooth(before, after)
 
-    def _frame(self) -> int | None:
-        before, after = self.session.span_keyframes()
-        return before.frame if before is not None and after is not None else None
+    def _show_choices(self, span: Span, *, charted: bool) -> None:
+        self.presets.setCurrentText(HOLD if span.hold else preset_name(span.easing) or OWN_CURVE)
+        live = charted and not span.hold
+        self.steps.setEnabled(live)
+        self.step_field.setEnabled(live)
+        step = 0 if span.exposures else span.step
+        self.steps.set_value(str(step) if charted else "")
+        if self.step_field.value() != step:
+            self.step_field.setValue(step)
 
-    def _on_preset(self, _: int) -> None:
-        frame, easing = self._frame(), PRESETS.get(self.presets.currentText())
-        if frame is not None and easing is not None:
-            self.session.apply("Change Easing", set_span, self.session.layer.id, frame, easing=easing)
+    def _show_drawing(self, spacing: Spacing | None) -> None:
+        here = spacing.here if spacing is not None else None
+        live = here is not None and not spacing.span.hold
+        for button in (self.half, self.thirds):
+            button.setEnabled(live)
+        self.delete.setEnabled(live and here > 0)
+        self.held_field.setEnabled(live and here < len(spacing.ticks) - 1)
+        count = spacing.exposures[here] if here is not None else 1
+        if self.held_field.value() != count:
+            self.held_field.setValue(count)
+        self._on_hovered(-1)
+
+    def _show_smooth(self, before: Keyframe | None, after: Keyframe | None) -> None:
+        """Show both ends; at the first and the last keyframe of a layer there is nothing to go through."""
+        frames = self.session.layer.frames()
+        for box, keyframe in zip(self.smooth, (before, after), strict=True):
+            inside = keyframe is not None and keyframe.frame in frames[1:-1]
+            box.setEnabled(inside)
+            box.setText(str(keyframe.frame) if keyframe is not None else "–")
+            box.setAccessibleName(f"Smooth through keyframe {box.text()}")
+            box.setChecked(keyframe is not None and keyframe.smooth)
+            tip = (
+                SMOOTH_TIP.format(keyframe.frame) if inside else "Only between two spans is there a way to smooth"
+            )
+            box.setToolTip(tip)
+
+    def _on_hovered(self, index: int) -> None:
+        """Tell of the drawing under the pointer, else of the one at the playhead."""
+        spacing = self.plot.spacing
+        if spacing is None:
+            self.note.setText("")
+        elif index < 0 and spacing.here is not None:
+            self.note.setText(spacing.told(spacing.here))
+        elif 0 <= index < len(spacing.ticks):
+            self.note.setText(spacing.told(index))
+        else:
+            self.note.setText(f"keyframe {spacing.last}")
+
+    def _here(self) -> int | None:
+        return self.plot.spacing.here if self.plot.spacing is not None else None
+
+    # changing
+
+    def _apply(self, text: str, edit: Edit, *args: object, key: object = None, **options) -> None:
+        """Edit the span that is shown; edits with the same `key` in a row are one step."""
+        if self._frame is not None:
+            if key is not None:
+                options["merge_key"] = (key, self.session.layer.id, self._frame)
+            self.session.apply(text, edit, self.session.layer.id, self._frame, *args, **options)
         self._refresh()
 
-    def _on_pressed(self) -> None:
-        if self._frame() is not None:
-            self._gesture = self.session.begin("Change Easing")
+    def _begin(self, text: str) -> None:
+        if self._frame is not None:
+            self._gesture = self.session.begin(text)
 
-    def _on_moved(self, easing: Easing) -> None:
-        frame = self._frame()
+    def _update(self, edit: Edit, *args: object, **options: object) -> None:
+        frame, layer_id = self._frame, self.session.layer.id
         if self._gesture is not None and frame is not None:
-            layer_id = self.session.layer.id
-            self._gesture.update(lambda d: set_span(d, layer_id, frame, easing=easing))
+            self._gesture.update(lambda d: edit(d, layer_id, frame, *args, **options))
 
     def _end(self, *, keep: bool) -> None:
         gesture, self._gesture = self._gesture, None
@@ -226,3 +212,49 @@ class EasingPanel(Section):
                 gesture.commit()
             else:
                 gesture.cancel()
+
+    def _on_preset(self, _: int) -> None:
+        name = self.presets.currentText()
+        if name == HOLD:
+            self._apply("Hold Keyframe", set_span, hold=True)
+        elif name in PRESETS:
+            self._apply("Change Easing", set_span, easing=PRESETS[name], hold=False)
+        else:
+            self._apply("Change Easing", set_span, hold=False)
+
+    def _on_curve_changed(self, text: str, easing: Easing, key: object) -> None:
+        self._apply(text, set_span, easing=easing, key=key)
+
+    def _on_step(self, step: int) -> None:
+        spacing = self.plot.spacing
+        if spacing is not None and step > 0 and (step != spacing.span.step or spacing.span.exposures):
+            self._apply(f"Put on {_step_name(step)}", set_step, step, key=("step",))
+        else:
+            self._refresh()
+
+    def _on_held(self, count: int) -> None:
+        here = self._here()
+        if here is not None and self.plot.spacing.exposures[here] != count:
+            self._hold(here, count)
+
+    def _hold(self, index: int, count: int) -> None:
+        self._apply("Change Exposure", hold_over, index, count, key=("held", index))
+
+    def _divide(self, index: int | None, parts: int) -> None:
+        if index is not None:
+            self._apply("Add Half" if parts == 2 else "Add Thirds", divide_tick, index, parts)
+
+    def _delete(self, index: int | None) -> None:
+        if index is not None:
+            self._apply("Delete Drawing", delete_tick, index)
+
+    def _on_smooth(self, end: int, on: bool) -> None:
+        keyframe = self.session.span_keyframes()[end]
+        if keyframe is not None:
+            text = "Smooth Keyframe" if on else "Sharp Keyframe"
+            self.session.apply(text, set_smooth, self.session.layer.id, [keyframe.frame], on)
+        self._refresh()
+
+
+def _step_name(step: int) -> str:
+    return {1: "Ones", 2: "Twos", 3: "Threes"}.get(step, f"{step}s")

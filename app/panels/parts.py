@@ -59,29 +59,76 @@ class Segments(QWidget):
         return super().eventFilter(watched, event)
 
     def set_value(self, value: str) -> None:
-        """Show a choice, without telling anyone."""
+        """Show a choice, without telling anyone; one that is not among them shows none."""
         if value in self._buttons:
             self._buttons[value].setChecked(True)
+            return
+        self._group.setExclusive(False)
+        for button in self._buttons.values():
+            button.setChecked(False)
+        self._group.setExclusive(True)
 
     def button(self, value: str) -> QToolButton:
         return self._buttons[value]
 
 
 class Section(QWidget):
-    """A titled part of the side panel."""
+    """A titled part of the side panel; a click on the title folds it away."""
+
+    folded = Signal(bool)
 
     def __init__(self, title: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.box = QVBoxLayout(self)
-        self.box.setContentsMargins(16, 12, 16, 4)
+        self.name = title.lower()
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(2, 12, 16, 4)
+        outer.setSpacing(8)
+        outer.addWidget(self._head(title))
+        self.body = QWidget()
+        self.box = QVBoxLayout(self.body)
+        self.box.setContentsMargins(14, 0, 0, 0)
         self.box.setSpacing(8)
-        head = QHBoxLayout()
+        outer.addWidget(self.body)
+
+    def _head(self, title: str) -> QWidget:
+        head = QWidget()
+        head.setCursor(Qt.CursorShape.PointingHandCursor)
+        head.installEventFilter(self)
+        row = QHBoxLayout(head)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(0)
+        self.arrow = QToolButton()
+        self.arrow.setProperty("arrow", True)
+        self.arrow.setFixedWidth(14)
+        self.arrow.setText("▾")
+        self.arrow.setToolTip(f"Fold {title} away")
+        self.arrow.setAccessibleName(f"Fold {title} away")
+        self.arrow.clicked.connect(lambda: self.set_folded(not self.is_folded))
         self.title = label(title.upper(), "title")
         self.note = label("", "muted")
-        head.addWidget(self.title)
-        head.addStretch(1)
-        head.addWidget(self.note)
-        self.box.addLayout(head)
+        row.addWidget(self.arrow)
+        row.addWidget(self.title)
+        row.addStretch(1)
+        row.addWidget(self.note)
+        return head
+
+    @property
+    def is_folded(self) -> bool:
+        return self.body.isHidden()
+
+    def set_folded(self, folded: bool) -> None:
+        """Show the title only, or all."""
+        if folded != self.is_folded:
+            self.body.setVisible(not folded)
+            self.arrow.setText("▸" if folded else "▾")
+            self.arrow.setToolTip(f"Show {self.name.capitalize()}" if folded else f"Fold {self.name} away")
+            self.folded.emit(folded)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if event.type() == QEvent.Type.MouseButtonPress and watched is self.title.parentWidget():
+            self.set_folded(not self.is_folded)
+            return True
+        return super().eventFilter(watched, event)
 
     def add_row(self, name: str, *widgets: QWidget) -> QLabel:
         """Add a labelled row and return its label."""

@@ -123,14 +123,14 @@ class Easing:
         """
         pieces = self.pieces()
         i = int(np.clip(np.searchsorted(pieces[:, 0, 0], ratio, side="right") - 1, 0, len(pieces) - 1))
-        left, right = _split(pieces[i], ratio)
+        left, right = split(pieces[i], ratio)
         middle = left[3]
         if not (0 < middle[0] < 1 and 1e-6 < middle[1] < 1 - 1e-6):
             return None
         try:
             return (
-                _chained([*(p / middle for p in pieces[:i]), left / middle]),
-                _chained([(p - middle) / (1 - middle) for p in (right, *pieces[i + 1 :])]),
+                chained([p / middle for p in (*pieces[:i], left)]),
+                chained([(p - middle) / (1 - middle) for p in (right, *pieces[i + 1 :])]),
             )
         except DocumentError:
             return None
@@ -145,7 +145,7 @@ def _bezier(ends: FloatArray, u: FloatArray) -> FloatArray:
     return result
 
 
-def _split(piece: FloatArray, x: float) -> tuple[FloatArray, FloatArray]:
+def split(piece: FloatArray, x: float) -> tuple[FloatArray, FloatArray]:
     """Cut a piece at a ratio."""
     low, high = 0.0, 1.0
     for _ in range(52):
@@ -165,14 +165,14 @@ def _halved(piece: FloatArray, u: float = 0.5) -> tuple[FloatArray, FloatArray]:
 def _tamed(piece: FloatArray, depth: int = 6) -> list[FloatArray]:
     """Cut a piece until the handles of each part lie within its ratios; near the upright they are moved there."""
     x0, x1, x2, x3 = piece[:, 0]
-    if depth == 0 or (x0 <= x1 <= x3 and x0 <= x2 <= x3):
+    if depth == 0 or min(x1 - x0, x3 - x1, x2 - x0, x3 - x2) >= -UPRIGHT:
         tame = piece.copy()
         tame[1:3, 0] = np.clip(piece[1:3, 0], x0, x3)
         return [tame]
     return [part for half in _halved(piece) for part in _tamed(half, depth - 1)]
 
 
-def _chained(pieces: Sequence[FloatArray]) -> Easing:
+def chained(pieces: Sequence[FloatArray]) -> Easing:
     """Return the easing of pieces that join from (0, 0) to (1, 1)."""
     tame = [part for piece in pieces for part in _tamed(piece)]
     knots = tuple(Knot(*map(float, (*b[0], *a[2], *b[1]))) for a, b in pairwise(tame))

@@ -128,7 +128,7 @@ def _with_ticks(
 ) -> Document:
     if tuple(ticks) == ticks_of(keyframe.span, length):
         return document
-    return _with_span(document, layer_id, keyframe, _charted(keyframe.span, ticks, length))
+    return _with_span(document, layer_id, keyframe, charted(keyframe.span, ticks, length))
 
 
 def _with_span(document: Document, layer_id: int, keyframe: Keyframe, span: Span) -> Document:
@@ -155,10 +155,10 @@ def broken_span(span: Span, length: int, offset: int) -> tuple[Span, Span]:
         middle = offset / length
     first = [(o, t / middle if middle else 0.0) for o, t in ticks if o < offset]
     second = [(0, 0.0), *((o - offset, (t - middle) / (1 - middle)) for o, t in ticks if o > offset)]
-    return _charted(plain, first, offset), _charted(plain, second, length - offset)
+    return charted(plain, first, offset), charted(plain, second, length - offset)
 
 
-def _charted(span: Span, ticks: Sequence[Tick], length: int) -> Span:
+def charted(span: Span, ticks: Sequence[Tick], length: int) -> Span:
     """Return a span of those drawings, with exposures of their own only where they follow no step."""
     exposures = tuple(b - a for a, b in pairwise((*(o for o, _ in ticks), length)))
     plain = replace(span, exposures=(), easing=through([(o / length, _in_range(t)) for o, t in ticks[1:]]))
