@@ -86,7 +86,7 @@ class SheetTable(QTableView):
     def currentChanged(self, current: QModelIndex, previous: QModelIndex) -> None:
         """Go where the keys went."""
         super().currentChanged(current, previous)
-        if current.isValid() and self._drag is None:
+        if current.isValid() and self._drag is None and self.sheet.is_current:
             self._go_to(current)
 
     def _go_to(self, index: QModelIndex) -> None:
@@ -216,8 +216,10 @@ class SheetTable(QTableView):
         elif key == Qt.Key.Key_Delete:
             self.delete_drawing()
         elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_F2):
-            self.edit(self.currentIndex())
-        elif event.text().isdigit() or not event.text() or key == Qt.Key.Key_Escape:
+            self.edit(self.currentIndex(), QAbstractItemView.EditTrigger.AllEditTriggers, event)
+        elif event.text().isdigit():
+            self.edit(self.currentIndex(), QAbstractItemView.EditTrigger.AnyKeyPressed, event)
+        elif not event.text() or key == Qt.Key.Key_Escape:
             super().keyPressEvent(event)
         else:
             event.ignore()

@@ -129,8 +129,8 @@ class Easing:
             return None
         try:
             return (
-                chained([p / middle for p in (*pieces[:i], *_tame(left))]),
-                chained([(p - middle) / (1 - middle) for p in (*_tame(right), *pieces[i + 1 :])]),
+                chained([p / middle for p in (*pieces[:i], left)]),
+                chained([(p - middle) / (1 - middle) for p in (right, *pieces[i + 1 :])]),
             )
         except DocumentError:
             return None

@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLineEdit
 
 from app.panels.sheet import EDGE
 from app.panels.sheet_model import CELL
@@ -99,12 +100,12 @@ def test_a_click_goes_to_the_frame_and_the_layer(hand, table) -> None:
         assert (hand.session.frame, hand.session.layer.id) == where
 
 
-def test_a_number_typed_on_a_drawing_is_how_long_it_is_held(hand, table) -> None:
+def test_a_number_typed_on_a_drawing_is_how_long_it_is_held(hand, table, qtbot) -> None:
     click(table, 3)
     steps = hand.session.undo_stack.count()
     hand.key(Qt.Key.Key_4, into=table)
-    editor = table.indexWidget(table.currentIndex()) or table.viewport().focusWidget() or table.focusWidget()
-    hand.key(Qt.Key.Key_Return, into=editor)
+    hand.key(Qt.Key.Key_Return, into=table.findChild(QLineEdit))
+    qtbot.waitUntil(lambda: hand.session.undo_stack.count() > steps)
     assert held(hand)[:4] == [2, 4, 2, 1]
     assert hand.session.undo_stack.count() == steps + 1
     hand.menu("edit.undo")
