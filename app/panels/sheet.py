@@ -19,7 +19,7 @@ from core.model.parts import check_open
 from core.model.sheet_edits import expose_drawing
 from core.model.timing import drawn_offsets
 
-ROW, COLUMN = 19, 64
+ROW, COLUMN = 19, 76
 EDGE = 4
 """Px on either side of the lower edge of a drawing within which it is dragged."""
 
