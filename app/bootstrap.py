@@ -46,12 +46,7 @@ SPAN_ACTIONS = (
     "span.shift_back",
     "view.compare",
 )
-METHOD_ACTIONS = {
-    "linear": "span.linear",
-    "intrinsic": "span.intrinsic",
-    "rigid": "span.rigid",
-    "auto": "span.auto",
-}
+METHOD_ACTIONS = {method: f"span.{method}" for method in ("linear", "intrinsic", "rigid", "auto")}
 
 
 class Editor(QObject):

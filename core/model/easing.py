@@ -165,7 +165,7 @@ def _halved(piece: FloatArray, u: float = 0.5) -> tuple[FloatArray, FloatArray]:
 def _tamed(piece: FloatArray, depth: int = 6) -> list[FloatArray]:
     """Cut a piece until the handles of each part lie within its ratios; near the upright they are moved there."""
     x0, x1, x2, x3 = piece[:, 0]
-    if depth == 0 or (x0 <= x1 <= x3 and x0 <= x2 <= x3):
+    if depth == 0 or min(x1 - x0, x3 - x1, x2 - x0, x3 - x2) >= -UPRIGHT:
         tame = piece.copy()
         tame[1:3, 0] = np.clip(piece[1:3, 0], x0, x3)
         return [tame]

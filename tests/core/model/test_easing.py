@@ -2,7 +2,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from core.errors import DocumentError
@@ -108,7 +108,6 @@ def test_a_curve_through_points_has_no_kink_at_them(points):
 
 
 @given(st.floats(0.05, 0.95), RATIO, st.floats(0.05, 0.95), RATIO, st.floats(0.05, 0.95))
-@settings(max_examples=400)
 @example(0.9375, 0.0, 0.25, 0.0, 0.5)  # a handle would lie behind the cut
 def test_a_cut_easing_runs_as_before_in_both_parts(x1, y1, x2, y2, ratio):
     easing = Easing(x1, y1, x2, y2)
