@@ -48,7 +48,7 @@ from app.view import ViewState
 
 SIDE_WIDTH = 312
 TOOLBOX_WIDTH = 52
-SHEET_WIDTH = 260
+LEAST_TIMELINE = 480
 
 
 class Window(QMainWindow):
@@ -125,10 +125,10 @@ class Window(QMainWindow):
         across = QSplitter(Qt.Orientation.Horizontal)
         across.setHandleWidth(1)
         across.setChildrenCollapsible(False)
+        self.timeline.setMinimumWidth(LEAST_TIMELINE)  # else its fields would keep the sheet from its room
         across.addWidget(self.split)
         across.addWidget(self.sheet)
         across.setStretchFactor(0, 1)
-        across.setSizes([800, SHEET_WIDTH])
         self.sheet.setVisible(self.view_state.options.sheet)
         self.view_state.changed.connect(lambda: self.sheet.setVisible(self.view_state.options.sheet))
         return across

@@ -19,7 +19,7 @@ from core.model.document import LONGEST, as_rate
 from core.model.edits import set_length, set_rate
 from core.model.timing import drawn_ratio
 
-ROOMY = 860
+ROOMY = 960
 """Width in px from which the onion skin's fields fit beside the rest."""
 
 

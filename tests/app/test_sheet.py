@@ -82,6 +82,10 @@ def test_x_opens_and_closes_the_sheet_and_it_is_open_again_next_time(hand, table
     assert settings.flag("view/sheet", False)
     hand.key(Qt.Key.Key_X)
     assert not table.isVisible()
+    hand.menu("view.sheet")
+    QTest.mouseClick(hand.editor.window.sheet.close_button, LEFT)
+    assert not table.isVisible()
+    assert not settings.flag("view/sheet", True)
 
 
 def test_a_click_goes_to_the_frame_and_the_layer(hand, table) -> None:
