@@ -124,6 +124,8 @@ def test_strokes_in_between_stay_strokes_whose_ends_go_to_ends_and_whose_width_c
     session = strokes.session
     session.apply("method", set_span, 1, 1, method=method)
     strokes.settle(qtbot)
+    about = strokes.editor.window.span_panel.about.text()
+    assert ("as with intrinsic" in about) == (method == "rigid")
     content = strokes.canvas.content
     (link,) = content.plan.links
     assert (link.before_positions[0], link.before_positions[-1]) == (0, 2)
@@ -186,7 +188,7 @@ def test_a_hole_is_edited_with_the_same_tools_as_what_is_around_it(hand, qtbot) 
 # what a held drawing is called
 
 
-def test_labels_say_which_drawing_is_held(strokes, monkeypatch) -> None:
+def test_labels_say_which_drawing_is_held(strokes) -> None:
     canvas = strokes.canvas
     assert canvas.content.drawing_words == ""
     strokes.editor.window.easing_panel.steps.button("3").click()
@@ -194,5 +196,6 @@ def test_labels_say_which_drawing_is_held(strokes, monkeypatch) -> None:
     assert canvas.content.drawing_words == ", drawing of 7"
     strokes.session.apply("hold", set_span, 1, 1, hold=True)
     assert canvas.content.is_held
+    assert "Held" in strokes.editor.window.span_panel.about.text()
     strokes.session.go_to(1)
     assert not canvas.content.is_held
