@@ -1,5 +1,6 @@
 """What the edit and draw menus do: functions on the session."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from app.session import OutlineRef, Selection, Session
@@ -175,6 +176,14 @@ def go_to_keyframe(session: Session, step: int) -> None:
     frames = [f for f in session.layer.frames() if (f - session.frame) * step > 0]
     if frames:
         session.go_to(min(frames) if step > 0 else max(frames))
+
+
+def smoothing_runs(session: Session) -> dict[str, Callable[[], None]]:
+    """Return what the two actions for all keyframes of a layer run."""
+    return {
+        "key.smooth_layer": lambda: set_layer_smooth(session, True),
+        "key.sharp_layer": lambda: set_layer_smooth(session, False),
+    }
 
 
 def set_layer_smooth(session: Session, smooth: bool) -> None:

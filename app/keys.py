@@ -36,12 +36,14 @@ class Keys(QObject):
         self.copied: tuple[CopiedKeyframe, ...] = ()
         self._remembered: list[tuple[Document, Chosen]] = []
         session.documentChanged.connect(self._on_document_changed)
+        session.frameChanged.connect(self._on_frame_changed)
+        session.selectionChanged.connect(self._on_selection_changed)
 
     # which
 
     def choose(self, keys: Iterable[KeyRef]) -> None:
-        """Select exactly these keyframes."""
-        chosen = frozenset(keys)
+        """Select exactly these keyframes, of which those that are there count."""
+        chosen = frozenset(keys) & _there(self.session.document)
         if not self.session.in_gesture:
             self._remembered = [(d, c) for d, c in self._remembered if d is not self.session.document]
             self._remembered = [*self._remembered, (self.session.document, chosen)][-MOST_REMEMBERED:]
@@ -81,11 +83,21 @@ class Keys(QObject):
 
     def _on_document_changed(self, diff: DocumentDiff) -> None:
         known = next((c for d, c in self._remembered if d is diff.after), None)
-        there = {(x.id, f) for x in diff.after.layers for f in x.frames()} if self.chosen else set()
-        chosen = self.chosen & there if known is None else known
+        chosen = self.chosen & _there(diff.after) if known is None else known
         if chosen != self.chosen:
             self.chosen = chosen
             self.changed.emit()
+
+    def _on_frame_changed(self, frame: int) -> None:
+        """Give up a single one when the playhead leaves it: what is done next is meant for where one is now."""
+        if len(self.chosen) == 1 and not self.session.in_gesture and self.frames != (frame,):
+            self.choose(())
+
+    def _on_selection_changed(self) -> None:
+        """Give way to what is selected on the canvas."""
+        selection = self.session.selection
+        if selection.vertices or selection.anchor or selection.pin:
+            self.choose(())
 
     # what is done with them
 
@@ -121,6 +133,7 @@ class Keys(QObject):
             self.session.problem.emit(str(e))
             return
         self.session.apply(label, lambda _: document)
+        self.session.go_to(min(frame for _, frame in made))
         self.choose(made)
 
     def set_hold(self, hold: bool) -> None:
@@ -131,6 +144,10 @@ class Keys(QObject):
         if keys := self.acted_on():
             label = "Smooth" if smooth else "Sharpen"
             self.session.apply(_many(f"{label} Keyframe", keys), smooth_keyframes, keys, smooth)
+
+
+def _there(document: Document) -> Chosen:
+    return frozenset((x.id, frame) for x in document.layers for frame in x.frames())
 
 
 def _many(label: str, keys: Iterable[object]) -> str:

@@ -34,6 +34,7 @@ from app.panels.reference import ReferencePanel
 from app.panels.sheet import SheetPanel
 from app.panels.span import SpanPanel
 from app.panels.timeline import Timeline, action_button
+from app.penoptions import PenOptions
 from app.playback import Playback
 from app.preview.alternatives import AlternativesPreview
 from app.preview.certificates import CertificatePreview
@@ -50,7 +51,7 @@ from app.view import ViewState
 
 SIDE_WIDTH = 312
 TOOLBOX_WIDTH = 52
-SHEET_WIDTH = 260
+LEAST_TIMELINE = 480
 
 
 class Window(QMainWindow):
@@ -75,10 +76,11 @@ class Window(QMainWindow):
         self.session, self.view_state, self.settings, self.theme = session, view, settings, theme
         self.table = ActionTable(theme, self)
         self.canvas = Canvas(session, preview, view, theme)
+        self.pens = PenOptions(settings, self)
         self.tools = {
             "tool.select": SelectTool(self.canvas),
-            "tool.pen": PenTool(self.canvas),
-            "tool.pencil": PencilTool(self.canvas),
+            "tool.pen": PenTool(self.canvas, self.pens),
+            "tool.pencil": PencilTool(self.canvas, self.pens),
             "tool.correspond": CorrespondTool(self.canvas),
             "tool.pin": PinTool(self.canvas),
         }
@@ -89,7 +91,7 @@ class Window(QMainWindow):
         self.certificate_panel = CertificatePanel(session, certificates, theme)
         self.certificate_panel.problemChosen.connect(self.canvas.mark)
         self.timeline.track.problemChosen.connect(self.canvas.mark)
-        self.drawing_panel = DrawingPanel(session, theme, *self._tolerance())
+        self.drawing_panel = DrawingPanel(session, theme, self.pens)
         self.layer_panel = LayerPanel(session, theme)
         self.reference_panel = ReferencePanel(session)
         self.sheet = SheetPanel(session, theme, self.table.actions)
@@ -134,10 +136,10 @@ class Window(QMainWindow):
         across = QSplitter(Qt.Orientation.Horizontal)
         across.setHandleWidth(1)
         across.setChildrenCollapsible(False)
+        self.timeline.setMinimumWidth(LEAST_TIMELINE)  # else its fields would keep the sheet from its room
         across.addWidget(self.split)
         across.addWidget(self.sheet)
         across.setStretchFactor(0, 1)
-        across.setSizes([800, SHEET_WIDTH])
         self.sheet.setVisible(self.view_state.options.sheet)
         self.view_state.changed.connect(lambda: self.sheet.setVisible(self.view_state.options.sheet))
         return across
@@ -225,17 +227,6 @@ class Window(QMainWindow):
             button.setFixedSize(30, 28)
             row.addWidget(button)
         self.menuBar().setCornerWidget(corner)
-
-    def _tolerance(self):
-        """The pencil's tolerance now, and what keeps another one."""
-        pencil = self.tools["tool.pencil"]
-        pencil.tolerance = self.settings.number("pencil/tolerance", pencil.tolerance, 0, 50)
-
-        def changed(value: float) -> None:
-            pencil.tolerance = value
-            self.settings.keep("pencil/tolerance", value)
-
-        return pencil.tolerance, changed
 
     # showing
 

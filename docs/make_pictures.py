@@ -19,6 +19,7 @@ THEMES = {"light": "", "dark": "-dark"}
 
 WINDOW = (1280, 860)
 FIGURE = (1280, 400)
+FIGURE_SAMPLE = "bending arm"
 FONTS = """<?xml version="1.0"?>
 <!DOCTYPE fontconfig SYSTEM "fonts.dtd">
 <fontconfig><dir>{fonts}</dir><cachedir>{cache}</cachedir></fontconfig>
@@ -62,9 +63,7 @@ def _editor(theme: str, settings_folder: Path) -> Iterator:
     kept = Settings(QSettings(str(settings_folder / f"{theme}.ini"), QSettings.Format.IniFormat))
     kept.keep("theme", theme)
     editor = Editor(kept)
-    editor.files.open_sample(resources.samples()[0])
-    before, after = editor.session.layer.frames()[:2]
-    editor.session.go_to((before + after) // 2)
+    _open(editor, resources.DEMO)
     editor.window.resize(*WINDOW)
     editor.window.show()
     _settle(editor)
@@ -73,6 +72,13 @@ def _editor(theme: str, settings_folder: Path) -> Iterator:
     editor.preview.stop()
     editor.certificates.stop()
     editor.window.hide()
+
+
+def _open(editor, sample: str) -> None:
+    """Open a sample in the middle of its first span, or a little before, where the drawings lie apart."""
+    editor.files.open_sample(next(path for path in resources.samples() if path.stem == sample))
+    before, after = editor.session.layer.frames()[:2]
+    editor.session.go_to((before + after) // 2 - 1)
 
 
 def _settle(editor) -> None:
@@ -94,6 +100,7 @@ def _window(editor):
 def _methods(editor):
     """Linear and intrinsic beside each other, as the canvas shows them."""
     canvas = editor.window.canvas
+    _open(editor, FIGURE_SAMPLE)
     editor.view_state.set(arrangement="compare")
     editor.window.choose_tool("tool.select")
     canvas.setParent(None)

@@ -220,6 +220,8 @@ class Canvas(pg.GraphicsView):
                 pans = True
             elif self.tool is not None:
                 self.tool.press(_pointer(event))
+        elif event.button() == Qt.MouseButton.RightButton and self.tool is not None:
+            self.tool.right_press(_pointer(event))
         if pans:
             self._pan_from = event.position()
             self._space_used = True

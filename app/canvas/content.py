@@ -15,6 +15,7 @@ from core.model.document import Document, Keyframe
 from core.model.drawing import Outline
 from core.model.inbetweens import Picture, SpanPlan
 from core.model.motion import SpanMotion, drawing_picture
+from core.model.timing import drawn_offsets
 
 FILM_TIMES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 """As in the figures of the papers on shape blending."""
@@ -60,6 +61,24 @@ class Content:
     def editable(self, side: str) -> Keyframe | None:
         """Return the keyframe of a side."""
         return self.before if side == BEFORE else self.after
+
+    @property
+    def is_held(self) -> bool:
+        """Whether the drawing of a keyframe stays at the playhead until the next keyframe."""
+        before, after = self.before, self.after
+        spanned = before is not None and after is not None and before.frame < self.frame < after.frame
+        return spanned and before.span.hold
+
+    @property
+    def drawing_words(self) -> str:
+        """Which frame's drawing is held at the playhead, where it is not the frame's own."""
+        if self.before is None or self.after is None:
+            return ""
+        offset = self.frame - self.before.frame
+        begun = max(
+            o for o in drawn_offsets(self.before.span, self.after.frame - self.before.frame) if o <= offset
+        )
+        return "" if begun == offset else f", drawing of {self.before.frame + begun}"
 
     def outlines(self) -> Iterator[tuple[Paper, str, OutlineRef, Outline]]:
         """Yield every outline that can be edited, on every paper that shows it; the current keyframe's first."""

@@ -155,7 +155,11 @@ class ShapesItem(CanvasItem):
         stroke = None if on_key or beside else theme.color("inbetween")
         fill = theme.color("accent", 0.16)
         transform = self.canvas.camera.transform(paper.offset)
-        self.paint_lines(painter, content.picture.outlines, stroke, INBETWEEN_WIDTH, transform, fill)
+        areas = [x for x in content.picture.outlines if x[1]]
+        lines = [x for x in content.picture.outlines if not x[1]]
+        self.paint_lines(painter, areas, stroke, INBETWEEN_WIDTH, transform, fill)
+        if lines and stroke is not None:  # an open outline has no inside
+            self.paint_lines(painter, lines, stroke, INBETWEEN_WIDTH, transform)
 
 
 class LinesItem(CanvasItem):
@@ -303,9 +307,11 @@ class LabelsItem(CanvasItem):
         if content.after is not None and AFTER in paper.shows:
             words.append((f"after  frame {content.after.frame}", "after"))
         if INBETWEEN in paper.shows and content.t is not None and self._between(content):
-            words.append((f"in-between  frame {content.frame}", "inbetween"))
+            words.append((f"in-between  frame {content.frame}{content.drawing_words}", "inbetween"))
             if content.options.heat:
                 words += [("shorter", "shorter"), ("longer than the keyframes", "longer")]
+        if INBETWEEN in paper.shows and content.is_held:
+            words.append((f"held  frame {content.frame}", "inbetween"))
         if content.waiting and INBETWEEN in paper.shows and content.plan is not None:
             words.append((f"solving … ({content.plan.paths.method} shown)", "muted"))
         return words

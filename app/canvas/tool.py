@@ -64,6 +64,9 @@ class Tool:
     def double_click(self, pointer: Pointer) -> None:
         """The second press of a double click; `press` came for the first one only."""
 
+    def right_press(self, pointer: Pointer) -> None:
+        """The right button went down."""
+
     def key(self, event: QKeyEvent) -> bool:
         """A key was pressed; True if it was meant for the tool."""
         return False

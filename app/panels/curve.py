@@ -7,7 +7,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QWidget
 
-from app.panels.spacing import MARGIN, SpacingView
+from app.panels.spacing import MARGIN, Spacing, SpacingView
 from app.theme import Theme
 from core.errors import InkbetweenError
 from core.model.curve_edits import Side, add_knot, delete_knot, move_handle, move_knot, with_handles
@@ -64,6 +64,13 @@ class EasingPlot(SpacingView):
             "Drag the handles. Double click the curve for a knot, a knot to take it away.\n"
             "Alt: only one handle of a knot. Arrow keys move the chosen knot. The dots are the drawings."
         )
+
+    def show_spacing(self, spacing: Spacing | None) -> None:
+        """Show a span, or nothing; a knot of another one is not the chosen one."""
+        shown = self.spacing
+        if spacing is None or shown is None or (spacing.first, spacing.last) != (shown.first, shown.last):
+            self.chosen = None
+        super().show_spacing(spacing)
 
     @property
     def easing(self) -> Easing:

@@ -1,6 +1,5 @@
-"""How the keyframes at the playhead are painted: fill, stroke and width; and the pencil's tolerance."""
+"""How the keyframes at the playhead are painted; and what the pen and the pencil draw."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 from PySide6.QtCore import QSize
@@ -8,12 +7,18 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QCheckBox, QColorDialog, QDoubleSpinBox, QToolButton, QWidget
 
 from app.painting import to_qcolor
-from app.panels.parts import Section, swatch_icon
+from app.panels.parts import Section, Segments, label, percent_fields, swatch_icon
+from app.penoptions import FARTHEST, PenOptions
 from app.session import Session
 from app.theme import Theme
 from core.model.document import Document
 from core.model.drawing import WIDEST_STROKE, Style
 from core.model.edits import set_style
+
+KINDS = (
+    ("closed", "closed", "Pen and pencil draw closed outlines: shapes that are filled"),
+    ("open", "open", "Pen and pencil draw open outlines: strokes with round ends"),
+)
 
 
 class DrawingPanel(Section):
@@ -23,26 +28,45 @@ class DrawingPanel(Section):
         self,
         session: Session,
         theme: Theme,
-        tolerance: float,
-        tolerance_changed: Callable[[float], None],
+        pens: PenOptions,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__("Drawing", parent)
-        self.session, self.theme = session, theme
+        self.session, self.theme, self.pens = session, theme, pens
         self.fill, self.fill_on = self._color_row("fill")
         self.stroke, self.stroke_on = self._color_row("stroke")
         self.width_field = _decimal_field(0, WIDEST_STROKE, "Width of the stroke, in px of the stage")
         self.width_field.valueChanged.connect(lambda w: self._change("Change Stroke Width", width=w))
         self.add_row("width", self.width_field)
-        self.tolerance_field = _decimal_field(
-            0, 50, "Pencil: how far the simplified outline may lie off the hand's"
-        )
-        self.tolerance_field.setValue(tolerance)
-        self.tolerance_field.valueChanged.connect(tolerance_changed)
-        self.add_row("pencil", self.tolerance_field)
+        tip = "Opacity of the whole drawing: fill and stroke do not show through each other"
+        self.opacity, self.opacity_field = percent_fields(tip, self._on_opacity)
+        self.add_row("opacity", self.opacity, self.opacity_field)
+        self.about = label("", "muted")
+        self.about.setWordWrap(True)
+        self.box.addWidget(self.about)
+        self._make_pen_rows()
         for signal in (session.documentChanged, session.frameChanged, session.layerChanged):
             signal.connect(self._refresh)
         self._refresh()
+
+    def _make_pen_rows(self) -> None:
+        """What the pen and the pencil do; it is of no drawing that is there already."""
+        pens = self.pens
+        self.kinds = Segments(KINDS)
+        self.kinds.chosen.connect(lambda kind: pens.set_closed(kind == "closed"))
+        self.add_row("draw", self.kinds)
+        self.tolerance_field = _decimal_field(
+            0, FARTHEST, "Pencil: how far the simplified outline may lie off the hand's"
+        )
+        self.tolerance_field.setValue(pens.tolerance)
+        self.tolerance_field.valueChanged.connect(pens.set_tolerance)
+        self.add_row("pencil", self.tolerance_field)
+        pens.changed.connect(self._show_pens)
+        self._show_pens()
+
+    def _show_pens(self) -> None:
+        self.kinds.set_value("closed" if self.pens.closed else "open")
+        self.tolerance_field.setValue(self.pens.tolerance)
 
     def _color_row(self, name: str) -> tuple[QToolButton, QCheckBox]:
         swatch = QToolButton()
@@ -77,7 +101,10 @@ class DrawingPanel(Section):
         frames, style = self._frames(), self._style()
         names = " and ".join(map(str, frames))
         self.note.setText(f"keyframe{'s' if len(frames) > 1 else ''} {names}" if frames else "")
-        for widget in (self.fill, self.fill_on, self.stroke, self.stroke_on, self.width_field):
+        self.about.setText(self._advice(style))
+        self.about.setVisible(bool(self.about.text()))
+        fields = self.width_field, self.opacity, self.opacity_field
+        for widget in (self.fill, self.fill_on, self.stroke, self.stroke_on, *fields):
             widget.setEnabled(style is not None)
         style = style or Style()
         line = self.theme.color("muted")
@@ -89,6 +116,26 @@ class DrawingPanel(Section):
             on.setChecked(color is not None)
         if self.width_field.value() != style.width:
             self.width_field.setValue(style.width)
+        percent = round(100 * style.opacity)
+        for field in (self.opacity, self.opacity_field):
+            if field.value() != percent:
+                field.setValue(percent)
+
+    def _advice(self, style: Style | None) -> str:
+        """Say what becomes of open outlines."""
+        keyframes = [k for k in map(self.session.layer.keyframe_at, self._frames()) if k is not None]
+        if style is None or all(o.closed for k in keyframes for o in k.drawing.outlines):
+            return ""
+        if style.width == 0 or not (style.stroke or style.fill):
+            return "Open outlines are strokes: give them a width and a colour to see them."
+        return (
+            "" if style.stroke else "Open outlines are strokes: without a stroke they take the colour of the fill."
+        )
+
+    def _on_opacity(self, percent: int) -> None:
+        style = self._style()
+        if style is not None and percent != round(100 * style.opacity):
+            self._change("Change Opacity", opacity=percent / 100)
 
     def _choose(self, name: str) -> None:
         style = self._style()

@@ -38,6 +38,7 @@ class EasingPanel(Section):
         self.session = session
         self._gesture: Gesture | None = None
         self._frame: int | None = None
+        self._held_span = 0, 0
         self._make_presets()
         self.plot, self.chart = EasingPlot(theme), TimingChart(theme)
         views = QHBoxLayout()
@@ -59,7 +60,7 @@ class EasingPanel(Section):
         self.presets.activated.connect(self._on_preset)
         self.box.addWidget(self.presets)
         self.steps = Segments(STEPS)
-        self.steps.chosen.connect(lambda step: self._on_step(int(step)))
+        self.steps.chosen.connect(lambda step: self._on_step(int(step), key=None))
         self.step_field = number_field(
             0, LONGEST_STEP, "Frames that each drawing is held; own: the timing chart says so", self._on_step, 52
         )
@@ -198,12 +199,13 @@ class EasingPanel(Section):
 
     def _begin(self, text: str) -> None:
         if self._frame is not None:
+            self._held_span = self.session.layer.id, self._frame  # the film may play on meanwhile
             self._gesture = self.session.begin(text)
 
     def _update(self, edit: Edit, *args: object, **options: object) -> None:
-        frame, layer_id = self._frame, self.session.layer.id
-        if self._gesture is not None and frame is not None:
-            self._gesture.update(lambda d: edit(d, layer_id, frame, *args, **options))
+        span = self._held_span
+        if self._gesture is not None:
+            self._gesture.update(lambda d: edit(d, *span, *args, **options))
 
     def _end(self, *, keep: bool) -> None:
         gesture, self._gesture = self._gesture, None
@@ -225,10 +227,10 @@ class EasingPanel(Section):
     def _on_curve_changed(self, text: str, easing: Easing, key: object) -> None:
         self._apply(text, set_span, easing=easing, key=key)
 
-    def _on_step(self, step: int) -> None:
+    def _on_step(self, step: int, key: object = ("step",)) -> None:
         spacing = self.plot.spacing
         if spacing is not None and step > 0 and (step != spacing.span.step or spacing.span.exposures):
-            self._apply(f"Put on {_step_name(step)}", set_step, step, key=("step",))
+            self._apply(f"Put on {_step_name(step)}", set_step, step, key=key)
         else:
             self._refresh()
 

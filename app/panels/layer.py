@@ -2,10 +2,10 @@
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QCheckBox, QComboBox, QLineEdit, QMenu, QSlider, QToolButton, QWidget
+from PySide6.QtWidgets import QCheckBox, QComboBox, QLineEdit, QMenu, QToolButton, QWidget
 
 from app.layercolors import LAYER_COLORS, layer_color
-from app.panels.parts import Section, number_field, swatch_icon
+from app.panels.parts import Section, percent_fields, swatch_icon
 from app.session import Session
 from app.theme import Theme
 from core.model.document import LONGEST_NAME, Document
@@ -58,14 +58,8 @@ class LayerPanel(Section):
         self.add_row("name", self.name_field, self.swatch)
 
     def _make_opacity(self) -> None:
-        self.opacity = QSlider(Qt.Orientation.Horizontal)
-        self.opacity.setRange(0, 100)
-        self.opacity.setFixedWidth(104)
-        self.opacity.setAccessibleName("Opacity of the layer")
-        self.opacity.setToolTip("Opacity of the layer, times that of each drawing")
-        self.opacity.valueChanged.connect(self._on_opacity)
-        self.opacity_field = number_field(0, 100, self.opacity.toolTip(), self._on_opacity, 64)
-        self.opacity_field.setSuffix(" %")
+        tip = "Opacity of the layer, times that of each drawing"
+        self.opacity, self.opacity_field = percent_fields(tip, self._on_opacity)
         self.add_row("opacity", self.opacity, self.opacity_field)
 
     @staticmethod

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import (
     QLabel,
     QPushButton,
     QSizePolicy,
+    QSlider,
     QSpinBox,
     QToolButton,
     QVBoxLayout,
@@ -171,6 +172,20 @@ def number_field(low: int, high: int, tip: str, changed: Callable[[int], None], 
     field.setAlignment(Qt.AlignmentFlag.AlignRight)
     field.valueChanged.connect(changed)
     return field
+
+
+def percent_fields(tip: str, changed: Callable[[int], None]) -> tuple[QSlider, QSpinBox]:
+    """Return a slider and a field that both tell a share in percent."""
+    slider = QSlider(Qt.Orientation.Horizontal)
+    slider.setRange(0, 100)
+    slider.setFixedWidth(104)
+    slider.setToolTip(tip)
+    slider.setAccessibleName(tip)
+    slider.valueChanged.connect(changed)
+    field = number_field(0, 100, tip, changed, 64)
+    field.setSuffix(" %")
+    field.setAccessibleName(tip)
+    return slider, field
 
 
 def swatch_icon(color: QColor | None, line: QColor, size: int = 18) -> QIcon:

@@ -3,9 +3,18 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from PySide6.QtCore import QEvent, QModelIndex, QPoint, Qt
+from PySide6.QtCore import QEvent, QModelIndex, QPoint, QSize, Qt
 from PySide6.QtGui import QAction, QContextMenuEvent, QKeyEvent, QMouseEvent
-from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QMenu, QTableView, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHBoxLayout,
+    QHeaderView,
+    QMenu,
+    QTableView,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 from app.panels.parts import label
 from app.panels.sheet_cells import SheetCells
@@ -19,7 +28,8 @@ from core.model.parts import check_open
 from core.model.sheet_edits import expose_drawing
 from core.model.timing import drawn_offsets
 
-ROW, COLUMN = 19, 64
+ROW, COLUMN = 19, 76
+WIDTH = 290
 EDGE = 4
 """Px on either side of the lower edge of a drawing within which it is dragged."""
 
@@ -42,12 +52,12 @@ class SheetTable(QTableView):
 
     def __init__(self, session: Session, theme: Theme, actions: Mapping[str, QAction]) -> None:
         super().__init__()
-        self.session, self.theme, self.menu_actions = session, theme, actions
+        self.session, self.menu_actions = session, actions
         self.sheet = SheetModel(session, self)
         self._drag: Drag | None = None
         self._lit: tuple[int, int] | None = None
         self.setModel(self.sheet)
-        self.cells = SheetCells(session, theme, lambda row, column: (row, column) == self._lit, self)
+        self.cells = SheetCells(self.sheet, theme, lambda row, column: (row, column) == self._lit, self)
         self.setItemDelegate(self.cells)
         self.setShowGrid(False)
         self.setMouseTracking(True)
@@ -68,25 +78,36 @@ class SheetTable(QTableView):
         self.horizontalHeader().sectionPressed.connect(lambda i: session.set_layer(self.sheet.layer(i).id))
         self.verticalHeader().sectionPressed.connect(lambda i: session.go_to(i + 1))
         self.sheet.reshaped.connect(self._show_current)
-        session.frameChanged.connect(self._show_current)
+        session.frameChanged.connect(self._on_frame_changed)
         session.layerChanged.connect(self._show_current)
         session.soloChanged.connect(self.viewport().update)
+        self._shown_row = 0
         self._show_current()
 
     # where we are
 
-    def _show_current(self, *_: object) -> None:
+    def _show_current(self) -> None:
         """Make the playhead's frame in the active layer the current cell, and keep it in sight."""
+        self._follow()
+        self.viewport().update()
+        self.horizontalHeader().viewport().update()
+
+    def _on_frame_changed(self, frame: int) -> None:
+        """Follow the playhead; while the film plays only two rows are painted anew."""
+        self._follow()
+        for row in (self._shown_row, frame - 1):
+            self.viewport().update(0, self.rowViewportPosition(row), self.viewport().width(), ROW)
+        self._shown_row = frame - 1
+
+    def _follow(self) -> None:
         if self._drag is None and self.sheet.is_current:  # else the other document's news is on its way
             column = self.sheet.column_of(self.session.layer.id)
             self.setCurrentIndex(self.sheet.index(self.session.frame - 1, column))
-        self.viewport().update()
-        self.horizontalHeader().viewport().update()
 
     def currentChanged(self, current: QModelIndex, previous: QModelIndex) -> None:
         """Go where the keys went."""
         super().currentChanged(current, previous)
-        if current.isValid() and self._drag is None:
+        if current.isValid() and self._drag is None and self.sheet.is_current:
             self._go_to(current)
 
     def _go_to(self, index: QModelIndex) -> None:
@@ -216,8 +237,10 @@ class SheetTable(QTableView):
         elif key == Qt.Key.Key_Delete:
             self.delete_drawing()
         elif key in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_F2):
-            self.edit(self.currentIndex())
-        elif event.text().isdigit() or not event.text() or key == Qt.Key.Key_Escape:
+            self.edit(self.currentIndex(), QAbstractItemView.EditTrigger.AllEditTriggers, event)
+        elif event.text().isdigit():
+            self.edit(self.currentIndex(), QAbstractItemView.EditTrigger.AnyKeyPressed, event)
+        elif not event.text() or key == Qt.Key.Key_Escape:
             super().keyPressEvent(event)
         else:
             event.ignore()
@@ -316,11 +339,23 @@ class SheetPanel(QWidget):
         box = QVBoxLayout(self)
         box.setContentsMargins(1, 12, 0, 0)
         box.setSpacing(8)
-        title = label("EXPOSURE SHEET", "title")
-        title.setContentsMargins(12, 0, 0, 0)
-        box.addWidget(title)
+        head = QHBoxLayout()
+        head.setContentsMargins(12, 0, 8, 0)
+        head.addWidget(label("EXPOSURE SHEET", "title"))
+        head.addStretch(1)
+        self.close_button = QToolButton()
+        self.close_button.setText("×")
+        self.close_button.setFixedSize(22, 20)
+        self.close_button.setToolTip("Close the exposure sheet (X)")
+        self.close_button.setAccessibleName("Close the exposure sheet")
+        self.close_button.clicked.connect(actions["view.sheet"].trigger)
+        head.addWidget(self.close_button)
+        box.addLayout(head)
         box.addWidget(self.table, 1)
 
+    def sizeHint(self) -> QSize:
+        return QSize(WIDTH, 400)
+
     def set_theme(self, theme: Theme) -> None:
-        self.table.theme = self.table.cells.theme = theme
+        self.table.cells.set_theme(theme)
         self.table.viewport().update()

@@ -24,6 +24,7 @@ PLACEMENTS = (
     ),
     ("centroid", "centroid straight", "The middle of the area goes straight, as that of a thrown thing does"),
 )
+STROKES_ONLY = "Strokes have no inside that could be stiff: they move as with intrinsic"
 LINES = (
     ("all", "all", "Draw the lines of the whole correspondence"),
     ("anchors", "anchors", "Draw only the pairs that you fixed"),
@@ -163,12 +164,16 @@ class SpanPanel(QWidget):
     def _about(self, before: Keyframe, after: Keyframe) -> str:
         """Say what the method does; of auto what it chose, and what did not go as asked."""
         span = before.span
+        if span.hold:
+            return f"Held: the drawing of keyframe {before.frame} stays until {after.frame}, with no in-betweens."
         method = self.preview.tried_method(before, self.session.layer.id) or span.method
         plan = self.preview.plan(before, after, self.session.layer.id)
         if self.preview.waiting(before, self.session.layer.id):
             what = "the repair" if span.repair else method
             return f"Solving {what}; until then {plan.paths.method} is shown."
         tip = next(tip for value, _, tip in METHODS if value == method)
+        if method == "rigid" and not any(o.closed for k in (before, after) for o in k.drawing.outlines):
+            tip = STROKES_ONLY
         return ". ".join((plan.paths.reason or tip, *plan.paths.notes))
 
     def _advice(self) -> str:

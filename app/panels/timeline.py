@@ -20,7 +20,7 @@ from core.model.document import LONGEST, as_rate
 from core.model.edits import set_length, set_rate
 from core.model.timing import drawn_ratio
 
-ROOMY = 860
+ROOMY = 960
 """Width in px from which the onion skin's fields fit beside the rest."""
 
 
@@ -114,8 +114,10 @@ class Timeline(QWidget):
 
     def _refresh(self, *_: object) -> None:
         document = self.session.document
-        self.frame_field.setMaximum(document.length)
+        # never less than what it shows: it would clip that, and the playhead would go there
+        self.frame_field.setMaximum(max(document.length, self.frame_field.value()))
         _show(self.frame_field, self.session.frame)
+        self.frame_field.setMaximum(document.length)
         _show(self.length_field, document.length)
         if not self.rate_field.hasFocus():
             self.rate_field.setText(rate_text(document.rate))

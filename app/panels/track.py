@@ -133,6 +133,8 @@ class Track(QWidget):
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         if event.button() == Qt.MouseButton.LeftButton:
+            if self._drag is not None:  # whose release another window has got
+                self._drag.release(event.position())
             self._drag = self._begun(event.position(), event.modifiers())
             self.update()
 
@@ -169,7 +171,8 @@ class Track(QWidget):
         elif key not in self.keys.chosen:
             self.keys.choose({key})
         if held & (CTRL | SHIFT):
-            self.session.go_to(key[1])
+            if key in self.keys.chosen:
+                self.session.go_to(key[1])
             return None
         return MoveKeys(self, at, key)
 
@@ -246,6 +249,8 @@ class Track(QWidget):
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         at = QPointF(event.pos())
+        if self._drag is not None:
+            return
         row = self.view.row_at(at.y())
         if row is not None:
             self.session.set_layer(self.view.rows[row].id)

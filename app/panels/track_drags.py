@@ -85,6 +85,10 @@ class SetRange(Drag):
         frame = min(max(self.view.frame_at(at.x()), 1), self.session.document.length)
         self.session.set_range((min(self.fixed, frame), max(self.fixed, frame)))
 
+    def release(self, at: QPointF) -> None:
+        if not self.going:
+            self.session.go_to(self.view.frame_at(at.x()))
+
     def cancel(self) -> None:
         self.session.set_range(self.before)
 
@@ -100,14 +104,20 @@ class _Edit(Drag):
         self.refused: tuple[object, ...] = ()
 
     def start(self) -> None:
-        self.before = self.keys.chosen
+        self.before = self.keys.chosen  # since the press they may have been deleted
         for layer_id in {layer_id for layer_id, _ in self.before}:
             try:
                 check_open(self.session.document.layer(layer_id))
             except InkbetweenError as e:
                 self.session.problem.emit(str(e))
                 return
-        self.gesture = self.session.begin(self.label if len(self.before) == 1 else f"{self.label}s")
+        if self.before:
+            self.gesture = self.session.begin(self.label if len(self.before) == 1 else f"{self.label}s")
+
+    @property
+    def alive(self) -> bool:
+        """Whether the keyframes can be edited, and nothing else has ended the gesture."""
+        return self.gesture is not None and self.gesture.open
 
     def show(self, edit, *args: object, places: dict[int, int]) -> bool:  # type: ignore[no-untyped-def]
         """Show an edit of the keyframes; while one drags on, nothing is said about one that is refused."""
@@ -126,7 +136,7 @@ class _Edit(Drag):
         return True
 
     def release(self, at: QPointF) -> None:
-        if self.gesture is None:
+        if self.gesture is None or not self.gesture.open:
             return
         for changed in self.refused:  # this is what was wanted: now say why it cannot be
             self.gesture.update(changed)
@@ -151,6 +161,8 @@ class MoveKeys(_Edit):
         self.session.go_to(key[1])
 
     def follow(self, at: QPointF) -> None:
+        if not self.alive:
+            return
         delta = max(self.view.frame_at(at.x()) - self.key[1], 1 - min(f for _, f in self.before))
         places = {frame: frame + delta for _, frame in self.before}
         if self.show(move_keyframes, delta, places=places):
@@ -175,9 +187,14 @@ class StretchKeys(_Edit):
     def __init__(self, track: Track, at: QPointF, *, last: bool) -> None:
         super().__init__(track, at)
         self.last = last
+
+    def start(self) -> None:
         self.frames = list(self.keys.frames)
+        super().start()
 
     def follow(self, at: QPointF) -> None:
+        if not self.alive or len(self.frames) < 2:
+            return
         first, last, least = self.frames[0], self.frames[-1], len(self.frames) - 1
         by = round((at.x() - self.pressed.x()) / self.view.step)
         if self.last:

@@ -8,6 +8,7 @@ from PySide6.QtGui import QKeyEvent, QPainter, QPen, QPolygonF
 
 from app.canvas.papers import Paper, paper_at
 from app.canvas.tool import Pointer, Tool
+from app.penoptions import PenOptions
 from core.model.edits import add_outline
 
 CLOSE_REACH = 10.0
@@ -16,14 +17,15 @@ CLOSE_REACH = 10.0
 class PenTool(Tool):
     name, icon = "Pen", "pen"
     hint = (
-        "Click the vertices; click the first one or press Enter to close. "
-        "Backspace: take the last back. Escape: give up."
+        "Click vertices. First one again: close. Double or right click: leave open. "
+        "Enter: end as the panel says. Backspace: back by one. Escape: give up."
     )
-    held = (("Shift", "steps of 45°; with Enter: leave open"),)
+    held = (("Shift", "steps of 45°; Enter the other way"),)
     cursor = Qt.CursorShape.CrossCursor
 
-    def __init__(self, canvas) -> None:
+    def __init__(self, canvas, options: PenOptions) -> None:
         super().__init__(canvas)
+        self.options = options
         self._points: list[tuple[float, float]] = []
         self._next: tuple[float, float] | None = None
         self._paper: Paper | None = None
@@ -49,8 +51,17 @@ class PenTool(Tool):
         self.canvas.refresh()
 
     def double_click(self, pointer: Pointer) -> None:
-        # two quick clicks at different places are two vertices
-        self.press(pointer)
+        """End an open outline; but two quick clicks at different places are two vertices."""
+        if not self._points:
+            return  # the first click has just closed the outline
+        if pointer.far_from(self._view(self._points[-1])):
+            self.press(pointer)
+        elif len(self._points) > 1:
+            self._finish(closed=False)
+
+    def right_press(self, pointer: Pointer) -> None:
+        if len(self._points) > 1:
+            self._finish(closed=False)
 
     def hover(self, pointer: Pointer) -> None:
         if self._points:
@@ -66,7 +77,8 @@ class PenTool(Tool):
             return False
         key = event.key()
         if key in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
-            self._finish(closed=not event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
+            other_way = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
+            self._finish(closed=self.options.closed != other_way)
         elif key in (Qt.Key.Key_Backspace, Qt.Key.Key_Delete):
             self._points.pop()
             self.canvas.refresh()

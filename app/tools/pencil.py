@@ -6,6 +6,7 @@ from PySide6.QtGui import QKeyEvent, QPainter, QPen, QPolygonF
 
 from app.canvas.papers import Paper, paper_at
 from app.canvas.tool import Pointer, Tool
+from app.penoptions import PenOptions
 from core.geometry.outline import FloatArray, size
 from core.geometry.simplify import simplify, simplify_closed, smooth, without_repeats
 from core.model.edits import add_outline
@@ -16,13 +17,13 @@ SMALLEST_DRAWING = 4.0
 
 class PencilTool(Tool):
     name, icon = "Pencil", "pencil"
-    hint = "Draw with the button down; the outline closes on release. Escape: give up."
-    held = (("Alt", "leave it open"),)
+    hint = "Draw with the button down; closed or open as the drawing panel says. Escape: give up."
+    held = (("Alt", "the other way"),)
     cursor = Qt.CursorShape.CrossCursor
 
-    def __init__(self, canvas) -> None:
+    def __init__(self, canvas, options: PenOptions) -> None:
         super().__init__(canvas)
-        self.tolerance = 2.0
+        self.options = options
         self._trail: list[QPointF] = []
         self._paper: Paper | None = None
 
@@ -49,14 +50,14 @@ class PencilTool(Tool):
         view = np.array([(p.x(), p.y()) for p in trail])
         if size(view) < SMALLEST_DRAWING:
             return
-        closed = not pointer.alt
+        closed = self.options.closed != pointer.alt
         camera = self.canvas.camera
         offset = self._paper.offset if self._paper else 0.0
         stage = np.array([camera.to_stage(p, offset) for p in trail])
-        points = tidy(stage, self.tolerance, 1 / camera.scale, closed=closed)
+        points = tidy(stage, self.options.tolerance, 1 / camera.scale, closed=closed)
         if len(points) < (3 if closed else 2):
             self.canvas.session.problem.emit(
-                "That line encloses nothing: draw round a shape, or hold Alt for a line."
+                "That line encloses nothing: draw round a shape, or draw open outlines (Alt)."
             )
             return
         session = self.canvas.session

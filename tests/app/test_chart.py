@@ -133,6 +133,10 @@ def test_the_chosen_knot_has_handles_and_follows_the_arrow_keys(hand, panel) -> 
     grips = [g for g, _ in panel.plot.grips()]
     assert (1, "in") in grips
     assert (1, "out") in grips
+    hand.session.go_to(20)
+    assert panel.plot.chosen is None  # a knot of the other span
+    hand.session.go_to(5)
+    QTest.mouseClick(panel.plot, LEFT, NONE, grip(panel, 1, "knot"))
     before = span(panel).easing.knots[1]
     hand.key(Qt.Key.Key_Up, into=panel.plot)
     hand.key(Qt.Key.Key_Up, into=panel.plot)
@@ -189,6 +193,17 @@ def test_escape_gives_a_dragged_tick_up(hand, panel) -> None:
     QTest.mouseRelease(panel.chart, LEFT, NONE, start)
     assert panel.session.document is document
     assert panel.session.undo_stack.count() == 0
+
+
+def test_a_drag_stays_with_its_span_while_the_film_plays_on(hand, panel) -> None:
+    second, start = panel.session.layer.keyframes[1].span, panel.chart.at(5)
+    drag(hand, panel.chart, start, start - QPoint(0, 10), release=False)
+    once = ts(panel)[5]
+    hand.session.go_to(20)
+    hand.move_on(panel.chart, start - QPoint(0, 20))
+    QTest.mouseRelease(panel.chart, LEFT, NONE, start - QPoint(0, 20))
+    assert ts(panel)[5] > once
+    assert panel.session.layer.keyframes[1].span is second
 
 
 def test_a_click_on_a_tick_goes_to_its_frame_and_the_keys_go_on_from_there(hand, panel) -> None:

@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLineEdit
 
 from app.panels.sheet import EDGE
 from app.panels.sheet_model import CELL
@@ -81,6 +82,10 @@ def test_x_opens_and_closes_the_sheet_and_it_is_open_again_next_time(hand, table
     assert settings.flag("view/sheet", False)
     hand.key(Qt.Key.Key_X)
     assert not table.isVisible()
+    hand.menu("view.sheet")
+    QTest.mouseClick(hand.editor.window.sheet.close_button, LEFT)
+    assert not table.isVisible()
+    assert not settings.flag("view/sheet", True)
 
 
 def test_a_click_goes_to_the_frame_and_the_layer(hand, table) -> None:
@@ -99,12 +104,12 @@ def test_a_click_goes_to_the_frame_and_the_layer(hand, table) -> None:
         assert (hand.session.frame, hand.session.layer.id) == where
 
 
-def test_a_number_typed_on_a_drawing_is_how_long_it_is_held(hand, table) -> None:
+def test_a_number_typed_on_a_drawing_is_how_long_it_is_held(hand, table, qtbot) -> None:
     click(table, 3)
     steps = hand.session.undo_stack.count()
     hand.key(Qt.Key.Key_4, into=table)
-    editor = table.indexWidget(table.currentIndex()) or table.viewport().focusWidget() or table.focusWidget()
-    hand.key(Qt.Key.Key_Return, into=editor)
+    hand.key(Qt.Key.Key_Return, into=table.findChild(QLineEdit))
+    qtbot.waitUntil(lambda: hand.session.undo_stack.count() > steps)
     assert held(hand)[:4] == [2, 4, 2, 1]
     assert hand.session.undo_stack.count() == steps + 1
     hand.menu("edit.undo")

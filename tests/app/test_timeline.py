@@ -1,5 +1,7 @@
 """The timeline under a person's hand: rows, keyframes, the range that is played, flipping."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
@@ -9,9 +11,11 @@ from PySide6.QtWidgets import QApplication, QMenu
 
 from app.panels.track_view import HEADER, RULER
 from app.playback import frame_after
+from app.preview import tasks
 from core.model.document import Document
 from core.model.drawing import Drawing, Outline
-from core.model.edits import add_layer, put_drawing, set_layer, set_span, set_step
+from core.model.edits import add_layer, move_vertices, put_drawing, set_layer, set_span, set_step
+from core.model.inbetweens import plan_span
 from tests.app.conftest import CTRL, LEFT, NONE, SHIFT, move_pointer
 from tests.app.sketches import square, swing
 
@@ -128,6 +132,20 @@ def test_a_rubber_band_selects_across_rows_and_a_click_beside_selects_none(timel
     assert timeline.steps == 0
 
 
+def test_a_single_selected_keyframe_is_let_go_when_the_playhead_leaves_it(timeline):
+    timeline.click(timeline.key(2, 13))
+    timeline.press_key(".")
+    assert timeline.keys.chosen == frozenset()
+    timeline.click(timeline.key(2, 5))
+    timeline.click(timeline.key(2, 25), CTRL)
+    timeline.press_key(",")
+    assert timeline.keys.chosen == {(2, 5), (2, 25)}
+    timeline.hand.canvas.setFocus()
+    timeline.hand.key(Key.Key_A, CTRL)  # vertices
+    assert timeline.session.selection.count == 4
+    assert timeline.keys.chosen == frozenset()
+
+
 def test_all_of_a_layer_are_selected_with_the_usual_key(timeline):
     timeline.click(timeline.key(2, 13))
     timeline.press_key(Key.Key_A, CTRL)
@@ -183,6 +201,67 @@ def test_a_locked_layer_refuses_with_a_sentence(timeline):
     timeline.click(timeline.key(2, 5))
     timeline.press_key(Key.Key_Delete)
     assert timeline.session.document is before
+
+
+def test_an_edit_in_the_middle_of_a_drag_ends_it(timeline):
+    timeline.drag(timeline.key(2, 13), timeline.key(2, 20), drop=False)
+    timeline.press_key(Key.Key_F5, CTRL)
+    document = timeline.session.document
+    move_pointer(timeline.track, timeline.key(2, 23), NONE, LEFT)
+    QTest.mouseRelease(timeline.track, LEFT, NONE, timeline.key(2, 23))
+    assert timeline.session.document is document
+    assert timeline.steps == 2
+    timeline.undo()
+    assert timeline.frames(2) == (5, 20, 25)
+
+
+def test_what_is_deleted_between_press_and_move_is_not_moved(timeline):
+    timeline.click(timeline.key(2, 13))
+    QTest.mousePress(timeline.track, LEFT, NONE, timeline.key(2, 13))
+    timeline.press_key(Key.Key_Delete)
+    move_pointer(timeline.track, timeline.key(2, 20), NONE, LEFT)
+    QTest.mouseRelease(timeline.track, LEFT, NONE, timeline.key(2, 20))
+    assert (timeline.frames(2), timeline.steps) == ((5, 25), 1)
+
+
+def test_a_press_after_a_lost_release_keeps_what_was_dragged(timeline):
+    timeline.drag(timeline.key(2, 13), timeline.key(2, 20), drop=False)
+    timeline.click(timeline.ruler(3))
+    assert (timeline.frames(2), timeline.steps, timeline.session.in_gesture) == ((5, 20, 25), 1, False)
+
+
+def test_moving_a_keyframe_solves_nothing_again_and_redrawing_it_only_its_two_spans(timeline, monkeypatch, qtbot):
+    solved = []
+
+    def counted(before, after, *args, **options):
+        solved.append((before, after))
+        return plan_span(before, after, *args, **options)
+
+    def drawings(layer_id):
+        return [k.drawing for k in timeline.session.document.layer(layer_id).keyframes]
+
+    def all_solved():
+        return timeline.hand.editor.preview.settled and all(
+            any(a is x and b is y for x, y in solved) for i in (1, 2, 3) for a, b in pairwise(drawings(i))
+        )
+
+    monkeypatch.setattr(tasks, "plan_span", counted)
+    timeline.session.new(film(*[(1, 9, 17, 25)] * 3))
+    timeline.session.set_layer(2)
+    qtbot.waitUntil(all_solved, timeout=20_000)
+    timeline.hand.certify(qtbot)
+    solved.clear()
+    timeline.drag(timeline.key(2, 17), timeline.key(2, 19), timeline.key(2, 21))
+    timeline.hand.certify(qtbot)
+    assert solved == []
+    redrawn = drawings(2)[2].outlines[0].points * 1.1
+    timeline.session.apply("Redraw", lambda d: move_vertices(d, 2, 21, {1: redrawn}))
+    timeline.hand.certify(qtbot)
+    timeline.session.go_to(15)
+    timeline.hand.certify(qtbot)
+    assert {frozenset(map(id, pair)) for pair in solved} == {
+        frozenset(map(id, pair)) for pair in pairwise(drawings(2)[1:])
+    }
 
 
 # stretching

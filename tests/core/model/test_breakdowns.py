@@ -26,12 +26,15 @@ def film(span, after=HOUSE, closed=True):
 
 def broken(document, frame, **fields):
     layer = document.layers[0]
-    motion = PlanCache().motions.of(document, layer, *layer.keyframes)
+    motion = PLANS.motions.of(document, layer, *layer.keyframes)
     return add_breakdown(document, 1, frame, motion)
 
 
+PLANS = PlanCache()
+
+
 def shape(document, frame):
-    return picture_at(document, document.layers[0], frame, PlanCache()).outlines[0][0]
+    return picture_at(document, document.layers[0], frame, PLANS).outlines[0][0]
 
 
 def same_shape(points, others):
@@ -58,7 +61,7 @@ def test_a_breakdown_lands_exactly_on_what_was_shown(method, after):
     st.integers(2, 24),
     st.sampled_from([{}, {"step": 2}, {"exposures": (3, 10, 11)}]),
 )
-@settings(max_examples=20)
+@settings(max_examples=12)
 def test_a_breakdown_of_straight_ways_leaves_the_film_as_it_was(easing, frame, timing):
     document = film(Span("linear", PRESETS[easing], **timing))
     result = broken(document, frame)

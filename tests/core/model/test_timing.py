@@ -3,7 +3,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from core.errors import DocumentError
@@ -33,9 +33,12 @@ def film(span, length=24, **layer):
     return Document(length=60, layers=(Layer(1, keyframes=ends, **layer),))
 
 
+PLANS = PlanCache()
+
+
 def left_edge(document, frame):
     """How far the square has come, 0 to 1."""
-    return picture_at(document, document.layers[0], frame, PlanCache()).outlines[0][0][0, 0] / 240
+    return picture_at(document, document.layers[0], frame, PLANS).outlines[0][0][0, 0] / 240
 
 
 @given(SPANS, st.integers(1, 40))
@@ -157,6 +160,7 @@ def test_a_moved_keyframe_takes_its_chart_along():
 
 
 @given(EASINGS, st.integers(1, 23), st.sampled_from([(), (4, 9, 5, 6)]))
+@settings(max_examples=25)
 def test_a_broken_span_shows_the_film_as_it_was(easing, offset, exposures):
     from core.model.timing_edits import broken_span
 
