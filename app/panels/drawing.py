@@ -128,9 +128,9 @@ class DrawingPanel(Section):
             return ""
         if style.width == 0 or not (style.stroke or style.fill):
             return "Open outlines are strokes: give them a width and a colour to see them."
-        return (
-            "" if style.stroke else "Open outlines are strokes: without a stroke they take the colour of the fill."
-        )
+        if not style.stroke:
+            return "Open outlines are strokes: without a stroke they take the colour of the fill."
+        return "Open outlines are strokes: the fill is not for them." if style.fill else ""
 
     def _on_opacity(self, percent: int) -> None:
         style = self._style()

@@ -284,6 +284,7 @@ def test_ones_twos_threes_and_any_other_number(hand, panel) -> None:
         assert span(panel).step == int(step)
         assert panel.steps.button(step).isChecked()
         assert panel.step_field.value() == int(step)
+    assert panel.session.undo_stack.count() == 3
     panel.step_field.setFocus()
     panel.step_field.selectAll()
     QTest.keyClicks(panel.step_field, "4")

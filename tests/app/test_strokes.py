@@ -99,6 +99,8 @@ def test_a_new_open_outline_is_seen_in_the_colour_of_the_fill(hand) -> None:
     panel = hand.editor.window.drawing_panel
     assert "colour of the fill" in panel.about.text()
     QTest.mouseClick(panel.stroke_on, LEFT, NONE, QPoint(8, panel.stroke_on.height() // 2))
+    assert "the fill is not for them" in panel.about.text()
+    QTest.mouseClick(panel.fill_on, LEFT, NONE, QPoint(8, panel.fill_on.height() // 2))
     assert panel.about.text() == ""
 
 
