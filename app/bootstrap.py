@@ -329,7 +329,7 @@ class Editor(QObject):
         dialog = ExportDialog(lambda: self.session.document, name, folder, self.settings, self.window)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.told.connect(self.window.tell)
-        dialog.told.connect(self.guidance.note_told)
+        dialog.exported.connect(self.guidance.tour.note_export)
         dialog.destroyed.connect(self._forget_dialog)
         self.export_dialog = dialog
         dialog.show()

@@ -48,11 +48,6 @@ class Guidance(QObject):
         canvas.refresh()
         self.card.refresh()
 
-    def note_told(self, _: str, kind: str) -> None:
-        """The export told something: good news is what the tour waits for."""
-        if kind == "info":
-            self.tour.note_export()
-
     def _show_keys(self) -> None:
         window = self._window
         overlay = KeysOverlay(window, window.table, self.shortcuts, window.tools.values(), window.canvas.tool)

@@ -58,6 +58,7 @@ class ExportDialog(QDialog):
     """Modeless: drawing goes on while files are written; an export has the document of its start."""
 
     told = Signal(str, str)
+    exported = Signal()
 
     def __init__(
         self,
@@ -254,6 +255,7 @@ class ExportDialog(QDialog):
         self._job = None
         if isinstance(result, Exported) and not result.cancelled:
             self.told.emit(_told(result), "info")
+            self.exported.emit()
             self.accept()
             return
         if isinstance(result, Exported):

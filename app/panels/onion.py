@@ -74,6 +74,7 @@ class OnionFields(QWidget):
         self.more.clicked.connect(self._open)
         for widget in (self.before, label("before", "muted"), self.after, label("after", "muted"), self.more):
             row.addWidget(widget)
+        self._wide = [row.itemAt(i).widget() for i in range(row.count() - 1)]
         self.options = OnionOptions(session, view, self)
         view.changed.connect(self._refresh)
         self.set_theme(theme)
@@ -82,6 +83,11 @@ class OnionFields(QWidget):
     def set_theme(self, theme: Theme) -> None:
         self.more.setIcon(icon("settings", theme))
         self.options.set_theme(theme)
+
+    def set_compact(self, compact: bool) -> None:
+        """Leave, where there is little room, only the button; its window has the counts too."""
+        for widget in self._wide:
+            widget.setVisible(not compact)
 
     def _open(self) -> None:
         self.options.show_above(self.more)
@@ -122,7 +128,9 @@ class OnionOptions(QFrame):
         self.strength.valueChanged.connect(lambda n: view.set(onion_strength=n / 100))
         grid.addWidget(label("strength", "muted"), 0, 0)
         grid.addWidget(self.strength, 0, 1)
-        self.choices = {name: self._choice_row(grid, i, *row) for i, (name, *row) in enumerate(ROWS, 1)}
+        grid.addWidget(label("how many", "muted"), 1, 0)
+        grid.addLayout(self._count_row(), 1, 1)
+        self.choices = {name: self._choice_row(grid, i, *row) for i, (name, *row) in enumerate(ROWS, 2)}
         box.addLayout(grid)
         self.layer_box = QVBoxLayout()
         self.layer_box.setSpacing(6)
@@ -133,8 +141,26 @@ class OnionOptions(QFrame):
         session.fileChanged.connect(self._forget_layers)
         self._refresh()
 
+    def _count_row(self) -> QHBoxLayout:
+        self.counts = {
+            side: number_field(
+                0,
+                MOST_SKINS,
+                f"How many drawings {side} the playhead are shown",
+                lambda n, s=side: self.view_state.set(**{f"onion_{s}": n}),
+            )
+            for side in ("before", "after")
+        }
+        row = QHBoxLayout()
+        row.setSpacing(6)
+        for side, field in self.counts.items():
+            row.addWidget(field)
+            row.addWidget(label(side, "muted"))
+        row.addStretch(1)
+        return row
+
     def _choice_row(self, grid: QGridLayout, row: int, name: str, choices, values) -> Segments:
-        option = ROWS[row - 1][0]
+        option = ROWS[row - 2][0]
         segments = Segments(choices)
         by_choice = dict(zip((c[0] for c in choices), values, strict=True))
         segments.chosen.connect(lambda choice: self.view_state.set(**{option: by_choice[choice]}))
@@ -182,6 +208,9 @@ class OnionOptions(QFrame):
         options = self.view_state.options
         if self.strength.value() != round(100 * options.onion_strength):
             self.strength.setValue(round(100 * options.onion_strength))
+        for side, field in self.counts.items():
+            if field.value() != getattr(options, f"onion_{side}"):
+                field.setValue(getattr(options, f"onion_{side}"))
         for name, _, choices, values in ROWS:
             chosen = choices[values.index(getattr(options, name))][0]
             self.choices[name].set_value(chosen)

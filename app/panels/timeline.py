@@ -80,7 +80,7 @@ class Timeline(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """In a narrow window the frame fields are worth more than those of the onion skin."""
-        self.onion_fields.setVisible(event.size().width() >= ROOMY)
+        self.onion_fields.set_compact(event.size().width() < ROOMY)
         super().resizeEvent(event)
 
     def _add_frame_fields(self, row: QHBoxLayout) -> None:

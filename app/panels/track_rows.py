@@ -60,7 +60,16 @@ class RowPainter:
             if k.frame not in seen:
                 continue
             self._paint_key(k, QPointF(self.x_of(k.frame), y), (layer.id, k.frame), chosen, hover)
+        if not layer.keyframes and active:
+            self._paint_advice(rect)
         painter.restore()
+
+    def _paint_advice(self, rect: QRectF) -> None:
+        """Say how an empty layer gets its first keyframe."""
+        self.painter.setPen(self.theme.color("muted"))
+        place = QRectF(rect).adjusted(HEADER + 40 - rect.left(), 0, 0, 0)
+        text = "A drawing on the stage becomes a keyframe at the playhead."
+        self.painter.drawText(place, int(Qt.AlignmentFlag.AlignVCenter), text)
 
     def _paint_bar(self, y: float, before: Keyframe, after: Keyframe, *, active: bool, lit: bool) -> None:
         """Paint a span, one of the active layer in the colours of its certificate or, without one, the accent."""

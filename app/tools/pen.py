@@ -17,8 +17,8 @@ CLOSE_REACH = 10.0
 class PenTool(Tool):
     name, icon = "Pen", "pen"
     hint = (
-        "Click vertices. First one again: close. Double or right click: leave open. "
-        "Enter: end as the panel says. Backspace: back by one. Escape: give up."
+        "Click vertices. The first again: close. Double or right click: open. "
+        "Enter: end as the panel says. Backspace: one back. Escape: give up."
     )
     held = (("Shift", "steps of 45°; Enter the other way"),)
     cursor = Qt.CursorShape.CrossCursor

@@ -57,6 +57,19 @@ def test_it_shows_as_many_drawings_as_asked_for_fainter_the_farther(hand, fields
     assert hand.canvas.content.onion == ()
 
 
+def test_a_narrow_window_keeps_the_button_and_its_window_the_counts(hand, fields) -> None:
+    assert fields.before.isVisible()
+    hand.editor.window.resize(1100, 700)
+    assert not fields.before.isVisible()
+    assert fields.more.isVisible()
+    QTest.mouseClick(fields.more, Qt.MouseButton.LeftButton)
+    counts = fields.options.counts
+    QTest.keyClick(counts["before"], Qt.Key.Key_Up)
+    assert (counts["before"].value(), fields.before.value()) == (3, 3)
+    assert frames(hand, "before") == [9, 10, 11]
+    fields.options.close()
+
+
 def test_a_drawing_held_for_two_frames_counts_once(hand, fields) -> None:
     hand.session.apply("Twos", set_step, 1, 1, 2)
     assert frames(hand, "before") == [7, 9]  # frame 12 shows the drawing of frame 11

@@ -7,6 +7,7 @@ from PySide6.QtTest import QTest
 import resources
 from app.bootstrap import Editor
 from app.tour import STEPS
+from tests.app.sketches import film
 
 SQUARE = [(400.0, 300.0), (700.0, 300.0), (700.0, 600.0), (400.0, 600.0)]
 HOUSE = [(900.0, 300.0), (1050.0, 150.0), (1200.0, 300.0), (1200.0, 600.0), (900.0, 600.0)]
@@ -27,13 +28,6 @@ def card(hand):
 def press(button):
     assert button.isVisible()
     QTest.mouseClick(button, Qt.MouseButton.LeftButton)
-
-
-def drag_playhead(hand, frames):
-    track = hand.editor.window.timeline.track
-    for frame in frames:
-        hand.session.go_to(frame)
-    assert track is not None
 
 
 def test_it_goes_from_step_to_step_as_they_are_done(hand, tour, card, settings) -> None:
@@ -122,3 +116,17 @@ def test_the_card_stays_in_its_corner_and_names_the_keys_in_use(hand, tour, card
 
 def test_nothing_is_offered_by_itself_in_a_window_that_is_made(hand, card) -> None:
     assert not card.isVisible()
+
+
+def test_frames_that_are_really_written_end_the_last_step(hand, tour, card, tmp_path, qtbot) -> None:
+    hand.session.new(film(length=3), "arm")
+    tour._go(len(STEPS) - 1)
+    hand.menu("file.export")
+    dialog = hand.editor.export_dialog
+    dialog.fields.place.setText(str(tmp_path / "frames"))
+    dialog.told.emit("Export cancelled; nothing was written.", "info")
+    assert tour.index == len(STEPS) - 1
+    with qtbot.waitSignal(dialog.exported, timeout=20_000):
+        hand.press_button(dialog.start_button)
+    assert card.title.text() == "That is all"
+    assert len(list((tmp_path / "frames").iterdir())) == 3
