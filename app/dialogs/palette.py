@@ -76,21 +76,27 @@ def _score_from(wanted: str, text: str, start: int) -> float:
         total += run * run * (2.0 if word else 1.0)
         i, at = i + run, at + run
         if i < len(wanted):
-            at = _next_place(wanted[i], text, at)
+            at = _next_place(wanted[i:], text, at)
             if at < 0:
                 return 0.0
     return total / (len(wanted) ** 2) + 0.2 + 0.2 * (start == 0) - 0.002 * len(text)
 
 
-def _next_place(letter: str, text: str, at: int) -> int:
-    """Return where a letter comes next, the beginning of a word if there is one."""
-    place = text.find(letter, at)
+def _next_place(rest: str, text: str, at: int) -> int:
+    """Return where the first letter of the rest comes next: where a word begins, if all the rest still follows."""
+    place = text.find(rest[0], at)
     word = place
     while word >= 0:
-        if word == 0 or not text[word - 1].isalnum():
+        if (word == 0 or not text[word - 1].isalnum()) and _follows(rest, text[word:]):
             return word
-        word = text.find(letter, word + 1)
+        word = text.find(rest[0], word + 1)
     return place
+
+
+def _follows(letters: str, text: str) -> bool:
+    """Whether letters come in this order in a text."""
+    there = iter(text)
+    return all(letter in there for letter in letters)
 
 
 def ranked(query: str, entries: Iterable[Entry]) -> list[Entry]:

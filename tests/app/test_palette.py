@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
@@ -46,6 +46,7 @@ def test_a_key_finds_its_action_first() -> None:
     assert found[0].text == "Add"
 
 
+@example("aba a", "aaa")
 @given(st.text(alphabet="abc d", max_size=12), st.text(alphabet="abc d", max_size=6))
 def test_exactly_the_texts_that_hold_the_letters_in_order_are_found(text, query) -> None:
     letters = iter(text.replace(" ", ""))
