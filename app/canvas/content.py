@@ -1,5 +1,6 @@
 """What is to be seen on the canvas now: worked out once a change, then only painted and searched."""
 
+import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -11,11 +12,14 @@ from app.preview.spans import SpanPreview
 from app.session import OutlineRef, Session
 from app.view import ViewOptions
 from core.geometry.outline import FloatArray
-from core.model.document import Document, Keyframe
+from core.model.document import Document, Keyframe, Layer
 from core.model.drawing import Outline
 from core.model.inbetweens import Picture, SpanPlan
 from core.model.motion import SpanMotion, drawing_picture
 from core.model.timing import drawn_offsets
+
+OTHERS_SECONDS = 0.02
+"""So long spans of other layers that nobody has seen are matched at once; those left wait for the worker."""
 
 FILM_TIMES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 """As in the figures of the papers on shape blending."""
@@ -125,16 +129,28 @@ def build_content(session: Session, preview: SpanPreview, options: ViewOptions) 
 
 
 def _others(session: Session, preview: SpanPreview) -> tuple[tuple[Picture, bool], ...]:
+    """Return the other layers' pictures; a keyframe for a while where matching would stop the playhead."""
     found = []
     in_front = False
+    until = time.perf_counter() + OTHERS_SECONDS
     for layer in session.document.layers:
         if layer.id == session.layer.id:
             in_front = True
         elif session.shows(layer):
-            picture = preview.motions.picture(session.document, layer, session.frame)
+            before, after = layer.around(session.frame)
+            if time.perf_counter() > until and not _at_hand(layer, before, after, preview):
+                picture = drawing_picture(before.drawing, layer.opacity) if before is not None else None
+            else:
+                picture = preview.motions.picture(session.document, layer, session.frame)
             if picture is not None:
                 found.append((picture, in_front))
     return tuple(found)
+
+
+def _at_hand(layer: Layer, before: Keyframe | None, after: Keyframe | None, preview: SpanPreview) -> bool:
+    """Whether a layer's picture costs no matching; a layer that follows another is not hurried."""
+    nothing_to_match = before is None or after is None or layer.parent is not None
+    return nothing_to_match or before.span.hold or preview.at_hand(before, after, layer.id)
 
 
 def _films(

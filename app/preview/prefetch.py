@@ -9,7 +9,7 @@ from app.session import Session
 from core.model.document import Keyframe
 
 PAUSE_MS = 500
-"""After the last change of the document; what is seen comes first."""
+"""After the last change of the document and of the playhead; what is seen comes first."""
 
 MOST_SPANS = 400
 """So many around the playhead: their plans are what the preview keeps."""
@@ -27,10 +27,16 @@ class Prefetch(QObject):
         self._pause.timeout.connect(self._on_paused)
         for signal in (session.documentChanged, session.soloChanged, session.gestureChanged):
             signal.connect(self._restart)
+        session.frameChanged.connect(self._on_frame_changed)
 
     def stop(self) -> None:
         self._pause.stop()
         self._preview.prepare(())
+
+    def _on_frame_changed(self, _: int) -> None:
+        """While the playhead moves every core is wanted for what is in sight."""
+        self._preview.prepare(())
+        self._pause.start()
 
     def _restart(self, *_: object) -> None:
         self._pause.start()

@@ -35,6 +35,9 @@ from core.model.motion import Motions
 PAUSE_MS = 40
 """The worker starts when nothing new was asked for this long: while a vertex is dragged, the pairs stay put."""
 
+MOST_AT_ONCE = 4
+"""Outlines that the worker matches before it shows what it has."""
+
 QUICK_METHODS = ("linear", "intrinsic")
 QUICK_SECONDS = 0.012
 """A plan that takes no longer is made at every step of a drag."""
@@ -126,6 +129,14 @@ class SpanPreview(QObject):
             return self._stand_in(before, after, layer, quick)
         _touch(self._plans, wanted.key)
         return found.plan
+
+    def at_hand(self, before: Keyframe, after: Keyframe, layer: int) -> bool:
+        """Whether the span can be planned without matching anything first; if not, the worker is asked to."""
+        tasks = [t for t in self._tasks(before, after, layer) if t.kept is None and t.key() not in self._exact]
+        for task in tasks:
+            self._wanted[task.likeness()] = task
+            self._pause.start()
+        return all(t.likeness() in self._alike for t in tasks)
 
     def prepare(self, spans: Iterable[tuple[int, Keyframe, Keyframe]]) -> None:
         """Have spans that are not seen yet, (layer, before, after), solved while nothing else is asked for."""
@@ -298,7 +309,7 @@ class SpanPreview(QObject):
         return solved
 
     def _on_paused(self) -> None:
-        tasks = tuple(self._wanted.values())
+        tasks = tuple(self._wanted.values())[-MOST_AT_ONCE:]  # what was asked for last is in sight
         if tasks:
             self._worker.submit(lambda: solve_all(tasks))
         elif self._slow and self._planning not in self._slow.values():
@@ -326,7 +337,7 @@ class SpanPreview(QObject):
                 if waiting is not None and waiting.key() == solved.task.key():
                     del self._wanted[solved.task.likeness()]
             self.planned.emit()
-            if self._slow or self._ahead:
+            if self._wanted or self._slow or self._ahead:
                 self._pause.start()
 
     def _on_planned(self, result: object) -> None:
