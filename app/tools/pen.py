@@ -17,7 +17,7 @@ CLOSE_REACH = 10.0
 class PenTool(Tool):
     name, icon = "Pen", "pen"
     hint = (
-        "Click vertices. The first again: close. Double or right click: open. "
+        "Click vertices. The first again: close. Double click: open. "
         "Enter: end as the panel says. Backspace: one back. Escape: give up."
     )
     held = (("Shift", "steps of 45°; Enter the other way"),)
