@@ -7,7 +7,7 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QCheckBox, QColorDialog, QDoubleSpinBox, QToolButton, QWidget
 
 from app.painting import to_qcolor
-from app.panels.parts import Section, Segments, label, percent_fields, swatch_icon
+from app.panels.parts import Section, Segments, label, percent_fields, show_value, swatch_icon
 from app.penoptions import FARTHEST, PenOptions
 from app.session import Session
 from app.theme import Theme
@@ -114,12 +114,10 @@ class DrawingPanel(Section):
         ):
             swatch.setIcon(swatch_icon(to_qcolor(color) if color else None, line))
             on.setChecked(color is not None)
-        if self.width_field.value() != style.width:
-            self.width_field.setValue(style.width)
+        show_value(self.width_field, style.width)
         percent = round(100 * style.opacity)
         for field in (self.opacity, self.opacity_field):
-            if field.value() != percent:
-                field.setValue(percent)
+            show_value(field, percent)
 
     def _advice(self, style: Style | None) -> str:
         """Say what becomes of open outlines."""

@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QWidget
 
 from app.panels.chart import TimingChart
 from app.panels.curve import EasingPlot
-from app.panels.parts import Section, Segments, flat_button, label, number_field
+from app.panels.parts import Section, Segments, flat_button, label, number_field, show_value
 from app.panels.spacing import Spacing
 from app.session import Gesture, Session
 from app.theme import Theme
@@ -143,8 +143,7 @@ class EasingPanel(Section):
         self.step_field.setEnabled(live)
         step = 0 if span.exposures else span.step
         self.steps.set_value(str(step) if charted else "")
-        if self.step_field.value() != step:
-            self.step_field.setValue(step)
+        show_value(self.step_field, step)
 
     def _show_drawing(self, spacing: Spacing | None) -> None:
         here = spacing.here if spacing is not None else None
@@ -154,8 +153,7 @@ class EasingPanel(Section):
         self.delete.setEnabled(live and here > 0)
         self.held_field.setEnabled(live and here < len(spacing.ticks) - 1)
         count = spacing.exposures[here] if here is not None else 1
-        if self.held_field.value() != count:
-            self.held_field.setValue(count)
+        show_value(self.held_field, count)
         self._on_hovered(-1)
 
     def _show_smooth(self, before: Keyframe | None, after: Keyframe | None) -> None:

@@ -5,7 +5,7 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QCheckBox, QComboBox, QLineEdit, QMenu, QToolButton, QWidget
 
 from app.layercolors import LAYER_COLORS, layer_color
-from app.panels.parts import Section, percent_fields, swatch_icon
+from app.panels.parts import Section, percent_fields, show_value, swatch_icon
 from app.session import Session
 from app.theme import Theme
 from core.model.document import LONGEST_NAME, Document
@@ -92,8 +92,7 @@ class LayerPanel(Section):
         self.swatch.setIcon(swatch_icon(layer_color(layer), self.theme.color("line")))
         percent = round(100 * layer.opacity)
         for field in (self.opacity, self.opacity_field):
-            if field.value() != percent:
-                field.setValue(percent)
+            show_value(field, percent)
         self.visible_box.setChecked(layer.visible)
         self.locked_box.setChecked(layer.locked)
         self._show_parents()

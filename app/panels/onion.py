@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.panels.parts import Segments, label, number_field
+from app.panels.parts import Segments, label, number_field, show_value
 from app.session import Session
 from app.theme import Theme, icon
 from app.view import TINTS, ViewState
@@ -99,8 +99,7 @@ class OnionFields(QWidget):
             (self.before, options.onion_before, "before", colors[0]),
             (self.after, options.onion_after, "after", colors[1]),
         ):
-            if field.value() != count:
-                field.setValue(count)
+            show_value(field, count)
             what = "keyframes" if options.onion_keys else "drawings"
             field.setToolTip(f"Onion skin: {what} {side} the playhead, {color}")
             field.setAccessibleName(f"onion skin {side}")
@@ -206,11 +205,9 @@ class OnionOptions(QFrame):
 
     def _refresh(self) -> None:
         options = self.view_state.options
-        if self.strength.value() != round(100 * options.onion_strength):
-            self.strength.setValue(round(100 * options.onion_strength))
+        show_value(self.strength, round(100 * options.onion_strength))
         for side, field in self.counts.items():
-            if field.value() != getattr(options, f"onion_{side}"):
-                field.setValue(getattr(options, f"onion_{side}"))
+            show_value(field, getattr(options, f"onion_{side}"))
         for name, _, choices, values in ROWS:
             chosen = choices[values.index(getattr(options, name))][0]
             self.choices[name].set_value(chosen)

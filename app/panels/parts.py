@@ -2,10 +2,11 @@
 
 from collections.abc import Callable, Sequence
 
-from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
+from PySide6.QtCore import QEvent, QObject, QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QIcon, QPainter, QPixmap
 from PySide6.QtWidgets import (
     QButtonGroup,
+    QDoubleSpinBox,
     QFrame,
     QHBoxLayout,
     QLabel,
@@ -172,6 +173,15 @@ def number_field(low: int, high: int, tip: str, changed: Callable[[int], None], 
     field.setAlignment(Qt.AlignmentFlag.AlignRight)
     field.valueChanged.connect(changed)
     return field
+
+
+def show_value(field: QSpinBox | QDoubleSpinBox | QSlider, value: float) -> None:
+    """Show a value that is not a person's change, so that nothing acts on it.
+
+    An edit here would end the gesture that changed the value, and rounding for the field would change it.
+    """
+    with QSignalBlocker(field):
+        field.setValue(value)
 
 
 def percent_fields(tip: str, changed: Callable[[int], None]) -> tuple[QSlider, QSpinBox]:

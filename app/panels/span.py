@@ -3,7 +3,7 @@
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QProgressBar, QPushButton, QWidget
 
-from app.panels.parts import Section, Segments, flat_button, label, number_field
+from app.panels.parts import Section, Segments, flat_button, label, number_field, show_value
 from app.preview.spans import SpanPreview
 from app.session import Session
 from app.view import ViewState
@@ -149,8 +149,7 @@ class SpanPanel(QWidget):
         self.methods.set_value(span.method)
         self.repair.setChecked(span.repair)
         self.about.setText(self._about(before, after))
-        if self.turns.value() != span.turns:
-            self.turns.setValue(span.turns)
+        show_value(self.turns, span.turns)
         self.placement.set_value(span.placement)
         for widget in (self.turns, self.other_way):
             widget.setEnabled(span.method != "linear")

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, 
 
 from app.keys import Keys
 from app.panels.onion import OnionFields
-from app.panels.parts import label, number_field, separator
+from app.panels.parts import label, number_field, separator, show_value
 from app.panels.track import Track
 from app.playback import Playback
 from app.preview.certificates import CertificatePreview
@@ -116,9 +116,9 @@ class Timeline(QWidget):
         document = self.session.document
         # never less than what it shows: it would clip that, and the playhead would go there
         self.frame_field.setMaximum(max(document.length, self.frame_field.value()))
-        _show(self.frame_field, self.session.frame)
+        show_value(self.frame_field, self.session.frame)
         self.frame_field.setMaximum(document.length)
-        _show(self.length_field, document.length)
+        show_value(self.length_field, document.length)
         if not self.rate_field.hasFocus():
             self.rate_field.setText(rate_text(document.rate))
         self.t_label.setText(self._t_text())
@@ -144,12 +144,6 @@ class Timeline(QWidget):
         else:
             self.session.apply("Change Frame Rate", set_rate, rate)
         self.rate_field.setText(rate_text(self.session.document.rate))
-
-
-def _show(widget, value: int) -> None:
-    """Show a value that is not a person's change; the slot it triggers finds nothing to do."""
-    if widget.value() != value:
-        widget.setValue(value)
 
 
 def rate_text(rate: Fraction) -> str:

@@ -201,3 +201,12 @@ def test_labels_say_which_drawing_is_held(strokes) -> None:
     assert "Held" in strokes.editor.window.span_panel.about.text()
     strokes.session.go_to(1)
     assert not canvas.content.is_held
+
+
+def test_looking_at_a_drawing_does_not_round_its_style(strokes) -> None:
+    fine = replace(strokes.session.layer.keyframes[0].drawing.style, width=1.3333, opacity=0.3333)
+    strokes.session.new(set_style(strokes.session.document, 1, 1, fine))
+    for frame in (13, 1):
+        strokes.session.go_to(frame)
+    assert strokes.session.undo_stack.count() == 0
+    assert strokes.session.layer.keyframes[0].drawing.style == fine

@@ -192,6 +192,14 @@ def test_keyframes_stop_at_the_first_frame_and_the_film_grows_at_its_end(timelin
     assert (timeline.frames(1), timeline.session.document.length) == ((1, 49), 49)
 
 
+def test_a_drag_past_the_end_goes_on_as_far_as_the_pointer_and_is_one_step(timeline):
+    way = [timeline.key(1, frame) for frame in (45, 50, 55)]  # where they lie before the film grows
+    timeline.drag(timeline.key(1, 40), *way)
+    assert timeline.frames(1)[1] > 50
+    timeline.undo()
+    assert (timeline.frames(1), timeline.session.document.length, timeline.steps) == ((1, 40), 48, 1)
+
+
 def test_a_locked_layer_refuses_with_a_sentence(timeline):
     timeline.session.apply("Lock", set_layer, 2, locked=True)
     before = timeline.session.document
