@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 from app.action_table import ActionTable
 from app.actions import ACTIONS, MENUS
 from app.canvas.canvas import Canvas
+from app.fieldkeys import FieldKeys, fields_in
 from app.foldings import remember_foldings
 from app.keys import Keys
 from app.panels.alternatives import AlternativesPanel
@@ -49,6 +50,8 @@ from app.tools.pin import PinTool
 from app.tools.select import SelectTool
 from app.view import ViewState
 
+MENU_TEXTS = {"Samples": "Sa&mples"}
+"""Where the first letter opens another menu."""
 SIDE_WIDTH = 312
 TOOLBOX_WIDTH = 52
 LEAST_TIMELINE = 480
@@ -97,6 +100,7 @@ class Window(QMainWindow):
         self.sheet = SheetPanel(session, theme, self.table.actions)
         self._advise()
         self.setCentralWidget(self._central())
+        FieldKeys(fields_in(self.timeline, *self._panels()), self.canvas)
         self.message_bar = MessageBar(self.canvas, theme)
         self._make_status_bar()
         self._make_menus()
@@ -164,6 +168,10 @@ class Window(QMainWindow):
             column.addWidget(button)
         return box
 
+    def _panels(self) -> tuple[QWidget, ...]:
+        first = self.span_panel, self.easing_panel, self.certificate_panel
+        return *first, self.drawing_panel, self.layer_panel
+
     def _side(self) -> QWidget:
         side = QWidget()
         side.setObjectName("side")
@@ -176,8 +184,7 @@ class Window(QMainWindow):
         column = QVBoxLayout(inner)
         column.setContentsMargins(0, 4, 0, 12)
         column.setSpacing(4)
-        panels = self.span_panel, self.easing_panel, self.certificate_panel, self.drawing_panel, self.layer_panel
-        for panel in panels:
+        for panel in self._panels():
             column.addWidget(panel)
             column.addWidget(separator())
         column.addWidget(self.reference_panel)
@@ -206,7 +213,7 @@ class Window(QMainWindow):
         self.canvas.zoomed.connect(lambda scale: self.zoom_label.setText(f"{100 * scale:.0f} %"))
 
     def _make_menus(self) -> None:
-        self.menus = {name: self.menuBar().addMenu(f"&{name}") for name in MENUS}
+        self.menus = {name: self.menuBar().addMenu(MENU_TEXTS.get(name, f"&{name}")) for name in MENUS}
         self.recent_menu = None
         for spec in ACTIONS:
             if not spec.menu:

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QToolButton, QVBoxLayout, QWidget
 
 from app.keys import Keys
 from app.panels.onion import OnionFields
@@ -22,6 +22,10 @@ from core.model.timing import drawn_ratio
 
 ROOMY = 960
 """Width in px from which the onion skin's fields fit beside the rest."""
+STEPPING = ("play.first", "play.previous", "play.toggle", "play.next", "play.last")
+BUTTONS = (*STEPPING, "play.loop", "play.ping_pong", "key.add")
+AFTER_BUTTON = {"play.last": 6, "key.add": 10}
+"""Room in px behind the last button of a group."""
 
 
 class Timeline(QWidget):
@@ -61,30 +65,44 @@ class Timeline(QWidget):
         row = QHBoxLayout(bar)
         row.setContentsMargins(12, 8, 16, 8)
         row.setSpacing(4)
-        for name in ("play.first", "play.previous", "play.toggle", "play.next", "play.last"):
-            row.addWidget(action_button(actions[name]))
-        row.addSpacing(6)
-        for name in ("play.loop", "play.ping_pong", "key.add"):
-            row.addWidget(action_button(actions[name]))
-        row.addSpacing(10)
+        buttons = {name: action_button(actions[name]) for name in BUTTONS}
+        for name, button in buttons.items():
+            row.addWidget(button)
+            row.addSpacing(AFTER_BUTTON.get(name, 0))
         self.t_label = label("", "strong")
         self.t_label.setMinimumWidth(52)
         self.t_label.setToolTip("Eased time in the span, 0 at the keyframe before and 1 at the one after")
         row.addWidget(self.t_label)
-        self._add_frame_fields(row)
+        frame, fps = self._add_frame_fields(row)
         row.addStretch(1)
         row.addWidget(action_button(actions["view.onion"]))
         self.onion_fields = OnionFields(self.session, self.view_state, self.theme)
         row.addWidget(self.onion_fields)
+        ends = (buttons[name] for name in ("play.ping_pong", "play.first", "play.last"))
+        self._spare = (self.dropped_label, fps, self.t_label, frame, *ends, self.rate_field)
+        self._row = row
         return bar
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """In a narrow window the frame fields are worth more than those of the onion skin."""
         self.onion_fields.set_compact(event.size().width() < ROOMY)
+        self._fit()
         super().resizeEvent(event)
 
-    def _add_frame_fields(self, row: QHBoxLayout) -> None:
-        row.addWidget(label("frame", "muted"))
+    def _fit(self) -> None:
+        """Leave out what can be missed most easily, as much as has no room: nothing lies over anything else."""
+        for widget in self._spare:
+            widget.show()
+        for widget in self._spare:
+            self._row.invalidate()
+            if self._row.minimumSize().width() <= self.width():
+                return
+            widget.hide()
+
+    def _add_frame_fields(self, row: QHBoxLayout) -> tuple[QLabel, QLabel]:
+        """Add frame, length and rate; return the words beside them."""
+        frame, fps = label("frame", "muted"), label("fps", "muted")
+        row.addWidget(frame)
         self.frame_field = number_field(1, LONGEST, "The frame that is shown", self.session.go_to)
         row.addWidget(self.frame_field)
         row.addWidget(label("/", "muted"))
@@ -97,15 +115,17 @@ class Timeline(QWidget):
         self.rate_field.setToolTip("Frames a second: 24, 29.97 or 30000/1001")
         self.rate_field.editingFinished.connect(self._on_rate)
         row.addWidget(self.rate_field)
-        row.addWidget(label("fps", "muted"))
+        row.addWidget(fps)
         self.dropped_label = label("", "badge")
         self.dropped_label.setToolTip("Frames that were not shown in time since playing began")
         self.playback.dropping.connect(self._show_dropped)
         row.addSpacing(6)
         row.addWidget(self.dropped_label)
+        return frame, fps
 
     def _show_dropped(self, count: int) -> None:
         self.dropped_label.setText(f"{count} dropped" if count else "")
+        self._fit()
 
     def set_theme(self, theme: Theme) -> None:
         self.theme = theme

@@ -42,6 +42,7 @@ def test_a_layer_is_renamed_and_an_empty_name_is_not_taken(hand, panel) -> None:
     QTest.keyClicks(panel.name_field, "upper arm")
     QTest.keyClick(panel.name_field, Qt.Key.Key_Return)
     assert hand.session.layer.name == "upper arm"
+    panel.name_field.setFocus()
     panel.name_field.selectAll()
     QTest.keyClick(panel.name_field, Qt.Key.Key_Backspace)
     QTest.keyClick(panel.name_field, Qt.Key.Key_Return)
