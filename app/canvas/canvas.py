@@ -32,6 +32,8 @@ from app.preview.spans import SpanPreview
 from app.session import Session
 from app.theme import Theme
 from app.view import ViewState
+from core.errors import InkbetweenError
+from core.model.parts import check_open
 
 ZOOM_STEP = 1.0015
 """Factor an eighth of a degree of the wheel: a notch of 120 zooms by a fifth."""
@@ -218,7 +220,7 @@ class Canvas(pg.GraphicsView):
         if event.button() == Qt.MouseButton.LeftButton:
             if self._space_down:
                 pans = True
-            elif self.tool is not None:
+            elif self.tool is not None and not self._refuses():
                 self.tool.press(_pointer(event))
         elif event.button() == Qt.MouseButton.RightButton and self.tool is not None:
             self.tool.right_press(_pointer(event))
@@ -227,6 +229,18 @@ class Canvas(pg.GraphicsView):
             self._space_used = True
             self.viewport().setCursor(Qt.CursorShape.ClosedHandCursor)
         event.accept()
+
+    def _refuses(self) -> bool:
+        """Whether the tool only draws and the layer is locked: said at the press, not after a whole outline."""
+        tool, layer = self.tool, self.session.layer
+        if tool is None or not tool.only_draws:
+            return False
+        try:
+            check_open(layer)
+        except InkbetweenError as e:
+            self.session.problem.emit(str(e))
+            return True
+        return False
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         self._tell_place(event.position())

@@ -287,7 +287,9 @@ class LabelsItem(CanvasItem):
         pen, pencil = (self.canvas.key_of(f"tool.{tool}") for tool in ("pen", "pencil"))
         by_pen = f"Press {pen} and click" if pen else "Take the pen and click"
         by_pencil = f"press {pencil} and draw" if pencil else "take the pencil and draw"
-        return f"{by_pen} the corners of your first drawing,\nor {by_pencil} it freehand."
+        others = any(x.keyframes for x in self.canvas.session.document.layers)
+        which = "the first drawing of this layer" if others else "your first drawing"
+        return f"{by_pen} the corners of {which},\nor {by_pencil} it freehand."
 
     def _second_advice(self, content: Content) -> str:
         """Say how one keyframe becomes a span."""

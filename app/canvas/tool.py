@@ -45,6 +45,7 @@ class Tool:
     shows_vertices = False
     shows_anchors = False
     shows_pins = False
+    only_draws = False  # of no use on a locked layer
 
     def __init__(self, canvas: "Canvas") -> None:
         self.canvas = canvas

@@ -40,6 +40,7 @@ class CorrespondTool(Tool):
     )
     held = (("Shift", "no snapping"),)
     cursor = Qt.CursorShape.PointingHandCursor
+    only_draws = True
     shows_vertices = True
     shows_anchors = True
 

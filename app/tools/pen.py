@@ -22,6 +22,7 @@ class PenTool(Tool):
     )
     held = (("Shift", "steps of 45°; Enter the other way"),)
     cursor = Qt.CursorShape.CrossCursor
+    only_draws = True
 
     def __init__(self, canvas, options: PenOptions) -> None:
         super().__init__(canvas)

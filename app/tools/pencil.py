@@ -20,6 +20,7 @@ class PencilTool(Tool):
     hint = "Draw with the button down; closed or open as the drawing panel says. Escape: give up."
     held = (("Alt", "the other way"),)
     cursor = Qt.CursorShape.CrossCursor
+    only_draws = True
 
     def __init__(self, canvas, options: PenOptions) -> None:
         super().__init__(canvas)

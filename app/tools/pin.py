@@ -40,6 +40,7 @@ class PinTool(Tool):
     )
     held = (("Shift", "no snapping"), ("Alt", "move the pin"))
     cursor = Qt.CursorShape.CrossCursor
+    only_draws = True
     shows_vertices = True
     shows_pins = True
 
