@@ -42,6 +42,8 @@ def _info_parser() -> argparse.ArgumentParser:
 
 def parse(words: list[str]) -> Callable[[], int]:
     """Return what the words ask for, ready to be run; raises SystemExit after wrong usage or help."""
+    if len(words) > 1 and words[0] not in COMMANDS and not words[0].startswith("-"):
+        _editor_parser().error(f"there is no command {words[0]!r}; the commands are {', '.join(COMMANDS)}")
     if words and words[0] in COMMANDS:
         parsed = COMMANDS[words[0]]().parse_args(words[1:])
         return lambda: parsed.run(parsed)

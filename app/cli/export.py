@@ -49,13 +49,16 @@ def export_parser() -> argparse.ArgumentParser:
     """Return what reads the words behind `export`."""
     parser = argparse.ArgumentParser(
         prog="inkbetween export",
+        usage="inkbetween export [options] FILE OUT",
         formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Write the frames of a project as pictures, a film, a sheet or for another program. Every "
         "file is whole\nor not there, none is replaced unasked, and the same project gives the same bytes.",
         epilog=FORMAT_HELP,
     )
     parser.add_argument("file", metavar="FILE", help="a project (.inkb)")
-    parser.add_argument("out", metavar="OUT", help="the file or folder; folders are made if they are not there")
+    parser.add_argument(
+        "out", metavar="OUT", type=_place, help="the file or folder; folders are made if they are not there"
+    )
     parser.add_argument("--format", metavar="F", type=_format, help="see below (as the ending of OUT says)")
     _add_picture_options(parser)
     _add_name_options(parser)
@@ -108,13 +111,20 @@ def _add_name_options(parser: argparse.ArgumentParser) -> None:
 
 def run_export(parsed: argparse.Namespace) -> int:
     """Export what the words say."""
-    from app.export.formats import format_of
+    from app.export.formats import check_ending, format_of
     from core.io.project import load
 
     form = parsed.format or format_of(parsed.out)
+    check_ending(parsed.out, form)
     document = load(parsed.file)
     settings = _settings(parsed, form, document)
     return write(document, settings, as_json=parsed.json)
+
+
+def _place(text: str) -> str:
+    if not text:
+        raise argparse.ArgumentTypeError("it is empty; name a file or a folder, . for this one")
+    return text
 
 
 def _settings(parsed: argparse.Namespace, form: str, document: "Document") -> "ExportSettings":
@@ -219,6 +229,8 @@ def _result(document: "Document", settings: "ExportSettings", exported: "Exporte
 
     files, kept = exported.files, f"; {exported.kept} were there already" if exported.kept else ""
     if not files:
+        if exported.kept == 1:
+            return "nothing to do, the file was there already"
         return f"nothing to do, all {exported.kept} files were there already"
     if FORMATS[settings.format].frames:
         drawings = "drawings" if settings.exposures else "frames"

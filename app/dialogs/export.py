@@ -292,7 +292,9 @@ class ExportDialog(QDialog):
 def _told(exported: Exported) -> str:
     files, kept = exported.files, f"; {exported.kept} were there already" if exported.kept else ""
     if not files:
+        if exported.kept == 1:
+            return "Nothing to do: the file was there already."
         return f"Nothing to do: all {exported.kept} files were there already."
     if len(files) == 1:
-        return f"{files[0].name} is in {files[0].parent}{kept}"
+        return f"Exported {files[0].name} to {files[0].parent}{kept}"
     return f"{len(files)} frames are in {files[0].parent}{kept}"

@@ -80,6 +80,16 @@ ENDINGS = {
 }
 
 
+def check_ending(out: str, form: str) -> None:
+    """Raise InkbetweenError if the path has the ending of another format: players go by it."""
+    ending = Path(out).suffix.lower()
+    meant = ENDINGS.get(ending)
+    wanted = FORMATS[form].ending
+    if meant is None or FORMATS[form].folder or ending == wanted or (form, ending) == ("apng", ".png"):
+        return
+    raise InkbetweenError(f"{out} ends as {FORMATS[meant].label} does, {FORMATS[form].label} ends in {wanted}")
+
+
 def format_of(out: str) -> str:
     """Return the format that a path asks for by its ending; no ending is a folder of PNG frames.
 

@@ -102,7 +102,7 @@ def _bytes_of(path: Path) -> bytes:
         with path.open("rb") as file:
             content = file.read(LARGEST_FILE + 1)
     except OSError as e:
-        raise StorageError(f"cannot read {path}: {e.strerror or e}") from None
+        raise StorageError(f"cannot read {path}: {(e.strerror or str(e)).lower()}") from None
     if len(content) > LARGEST_FILE:
         raise FileFormatError(f"{path.name} is larger than {LARGEST_FILE >> 20} MB; simplify it first")
     return content

@@ -293,6 +293,25 @@ def test_a_wrong_argument_is_wrong_usage(option, text, sentence, project, tmp_pa
     assert not (tmp_path / "out").exists()
 
 
+def test_a_command_that_is_none_is_named_with_those_that_are(opened, capsys):
+    assert main(["exprot", "a.inkb", "out"]) == 2
+    said = capsys.readouterr().err.splitlines()[-1]
+    assert said.endswith("there is no command 'exprot'; the commands are check, demo, export, info, new")
+    assert opened == []
+
+
+def test_a_place_without_a_name_is_wrong_usage(project, capsys):
+    assert main(["export", str(project), ""]) == 2
+    assert capsys.readouterr().err.endswith("it is empty; name a file or a folder, . for this one\n")
+
+
+def test_a_file_is_not_given_the_ending_of_another_format(project, tmp_path, capsys):
+    film = tmp_path / "film.mp4"
+    assert main(["export", str(project), str(film), "--format", "gif"]) == 1
+    assert capsys.readouterr().err == f"inkbetween: {film} ends as MP4 (H.264) does, GIF ends in .gif\n"
+    assert not film.exists()
+
+
 @pytest.mark.parametrize("words", [["--nonsense"], ["one.inkb", "two.inkb"], ["export", "a.inkb"], ["info"]])
 def test_words_that_fit_nothing_are_wrong_usage(words, opened, capsys):
     assert main(words) == 2

@@ -47,7 +47,7 @@ def test_a_preset_fills_the_fields_and_the_place_gets_its_ending(dialog, hand, t
     assert (fields.wide.value(), fields.high.value()) == (32, 24)
     assert dialog.example.text() == "arm.gif"
     assert not fields.pattern.isVisible()
-    assert exported(dialog, hand, qtbot) == [f"arm.gif is in {tmp_path}", "info"]
+    assert exported(dialog, hand, qtbot) == [f"Exported arm.gif to {tmp_path}", "info"]
     assert [p.name for p in tmp_path.glob("*.gif")] == ["arm.gif"]
 
 
