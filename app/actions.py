@@ -289,29 +289,28 @@ ACTIONS: tuple[ActionSpec, ...] = (
     ActionSpec(
         "span.shift_back", "Span", "Shift Start Back", ("[",), tip="The start goes to the vertex before it"
     ),
-    _line("Span"),
-    ActionSpec("play.toggle", "Span", "Play", ("Space",), "play"),
-    ActionSpec("play.loop", "Span", "Loop", (), "loop", checkable=True),
-    ActionSpec("play.ping_pong", "Span", "Ping-Pong", (), "ping-pong", checkable=True, tip="Play forth and back"),
-    ActionSpec("play.range_from", "Span", "Play from This Frame"),
-    ActionSpec("play.range_to", "Span", "Play to This Frame"),
-    ActionSpec("play.no_range", "Span", "Play the Whole Film"),
-    _line("Span"),
-    ActionSpec("play.previous", "Span", "Previous Frame", (",", "Left"), "previous"),
-    ActionSpec("play.next", "Span", "Next Frame", (".", "Right"), "next"),
-    ActionSpec("play.previous_key", "Span", "Previous Keyframe", ("Ctrl+,",)),
-    ActionSpec("play.next_key", "Span", "Next Keyframe", ("Ctrl+.",)),
-    ActionSpec("play.first", "Span", "First Frame", ("Home",), "first"),
-    ActionSpec("play.last", "Span", "Last Frame", ("End",), "last"),
-    _line("Span"),
+    ActionSpec("play.toggle", "Play", "Play", ("Space",), "play"),
+    ActionSpec("play.loop", "Play", "Loop", (), "loop", checkable=True),
+    ActionSpec("play.ping_pong", "Play", "Ping-Pong", (), "ping-pong", checkable=True, tip="Play forth and back"),
+    ActionSpec("play.range_from", "Play", "Play from This Frame"),
+    ActionSpec("play.range_to", "Play", "Play to This Frame"),
+    ActionSpec("play.no_range", "Play", "Play the Whole Film"),
+    _line("Play"),
+    ActionSpec("play.previous", "Play", "Previous Frame", (",", "Left"), "previous"),
+    ActionSpec("play.next", "Play", "Next Frame", (".", "Right"), "next"),
+    ActionSpec("play.previous_key", "Play", "Previous Keyframe", ("Ctrl+,",)),
+    ActionSpec("play.next_key", "Play", "Next Keyframe", ("Ctrl+.",)),
+    ActionSpec("play.first", "Play", "First Frame", ("Home",), "first"),
+    ActionSpec("play.last", "Play", "Last Frame", ("End",), "last"),
+    _line("Play"),
     ActionSpec(
-        "flip.previous", "Span", "Flip to Previous Drawing", ("A",), tip="Shown as long as the key is held"
+        "flip.previous", "Play", "Flip to Previous Drawing", ("A",), tip="Shown as long as the key is held"
     ),
-    ActionSpec("flip.next", "Span", "Flip to Next Drawing", ("D",), tip="Shown as long as the key is held"),
+    ActionSpec("flip.next", "Play", "Flip to Next Drawing", ("D",), tip="Shown as long as the key is held"),
     ActionSpec("help.find", "Help", "Find Command…", ("Ctrl+K",), tip="Run any command by a part of its name"),
     ActionSpec("help.keys", "Help", "Keys and Mouse", ("F1",), tip="Show every key over the window"),
     ActionSpec("help.tour", "Help", "Tour", tip="Draw, correspond, scrub and export in a minute"),
     _line("Help"),
     ActionSpec("help.about", "Help", "About Inkbetween"),
 )
-MENUS = ("File", "Edit", "View", "Draw", "Insert", "Layer", "Span", "Samples", "Help")
+MENUS = ("File", "Edit", "View", "Draw", "Insert", "Layer", "Span", "Play", "Samples", "Help")

@@ -143,6 +143,7 @@ def style_sheet(theme: Theme) -> str:
     return f"""
 * {{ font-size: 12px; }}
 QMainWindow, QDialog {{ background: {t.panel}; }}
+QDialogButtonBox {{ dialogbuttonbox-buttons-have-icons: 0; }}
 QWidget#backdrop {{ background: {t.background}; }}
 QMenuBar {{ background: {t.panel}; color: {t.text}; padding: 2px 6px; border-bottom: 1px solid {t.line}; }}
 QMenuBar::item {{ padding: 6px 10px; border-radius: 6px; background: transparent; }}

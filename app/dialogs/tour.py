@@ -1,4 +1,4 @@
-"""The card of the tour, in a corner of the canvas, where it is in nobody's way."""
+"""The card of the tour, in the upper corner of the canvas: messages come at the lower edge."""
 
 import re
 from collections.abc import Callable
@@ -91,7 +91,7 @@ class TourCard(QFrame):
     def _place(self) -> None:
         over = self.parentWidget()
         height = max(self.layout().totalHeightForWidth(WIDTH) + 4, self.minimumSizeHint().height())
-        self.setGeometry(over.width() - WIDTH - MARGIN, over.height() - height - MARGIN, WIDTH, height)
+        self.setGeometry(over.width() - WIDTH - MARGIN, MARGIN, WIDTH, height)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         if event.type() == QEvent.Type.Resize and self.isVisible():

@@ -3,7 +3,7 @@
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal
 from PySide6.QtGui import QIcon, QPainter, QPixmap, QTransform
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QToolButton, QVBoxLayout, QWidget
 
 from app.painting import paint_outlines
 from app.panels.parts import flat_button, label
@@ -17,8 +17,8 @@ from core.model.document import OutlinePair
 from core.model.edits import choose_correspondence, solve_again
 from core.repair.between import inbetween
 
-COLUMNS = 3
-PICTURE = QSize(76, 48)
+PICTURE = QSize(44, 40)
+"""So small that all stand in one row: more or fewer must not move the panels below under a person's hand."""
 
 
 class AlternativesPanel(QWidget):
@@ -42,10 +42,10 @@ class AlternativesPanel(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(6)
-        self._grid = QGridLayout()
-        self._grid.setSpacing(5)
-        self._grid.setColumnStretch(COLUMNS, 1)
-        column.addLayout(self._grid)
+        self._pictures = QHBoxLayout()
+        self._pictures.setSpacing(4)
+        self._pictures.addStretch(1)
+        column.addLayout(self._pictures)
         row = QHBoxLayout()
         self.badge = label("", "badge")
         self.badge.setToolTip("The stored correspondence is kept until you ask for a new one")
@@ -107,14 +107,14 @@ class AlternativesPanel(QWidget):
     def _show_pictures(self, ranking: Ranking | None, method: str) -> None:
         self._shown, self._shown_method = ranking, method
         for button in self.buttons:
-            self._grid.removeWidget(button)
+            self._pictures.removeWidget(button)
             button.hide()
             button.deleteLater()
         self.buttons = []
         for i, alternative in enumerate(ranking.alternatives if ranking else ()):
             button = self._button(ranking, alternative, method)
             self.buttons.append(button)
-            self._grid.addWidget(button, i // COLUMNS, i % COLUMNS)
+            self._pictures.insertWidget(i, button)
 
     def _button(self, ranking: Ranking, alternative: Alternative, method: str) -> QToolButton:
         button = QToolButton()
@@ -122,7 +122,7 @@ class AlternativesPanel(QWidget):
         button.setCheckable(True)
         button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextUnderIcon)
         button.setIconSize(PICTURE)
-        button.setFixedSize(82, 74)
+        button.setFixedSize(48, 64)
         button.setText(f"{alternative.cost:.3f}")
         button.setIcon(QIcon(self._picture(ranking, alternative, method)))
         button.setToolTip(

@@ -1,7 +1,7 @@
 """The status bar's hint: what the tool in the hand does, and what each modifier changes, lit while it is held."""
 
 from PySide6.QtCore import QEvent, QObject, Qt
-from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
 
 from app.canvas.canvas import Canvas
@@ -11,6 +11,21 @@ MODIFIERS = {
     "Alt": (Qt.Key.Key_Alt, Qt.KeyboardModifier.AltModifier),
     "Ctrl": (Qt.Key.Key_Control, Qt.KeyboardModifier.ControlModifier),
 }
+PADDING = 12
+"""px, as the style sheet gives the other labels of the status bar."""
+
+
+class CutLabel(QLabel):
+    """A line that ends in … where it has no room; a narrow window cuts it, not the window's width."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setMinimumWidth(1)
+
+    def paintEvent(self, _: QPaintEvent) -> None:
+        room = self.rect().adjusted(PADDING, 0, -PADDING, 0)
+        cut = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, room.width())
+        QPainter(self).drawText(room, int(Qt.AlignmentFlag.AlignVCenter), cut)
 
 
 class HintBar(QWidget):
@@ -23,8 +38,7 @@ class HintBar(QWidget):
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(0)
-        self.text = QLabel()
-        self.text.setMinimumWidth(1)  # a narrow window cuts the hint, not the window's width
+        self.text = CutLabel()
         self.labels: dict[str, QLabel] = {}
         for name in MODIFIERS:
             self.labels[name] = QLabel()
