@@ -69,7 +69,7 @@ class MeasuresPlot(QFrame):
     def show_certificate(self, made: SpanCertificate | None) -> None:
         frames = np.array(made.frames if made else (), np.float64)
         for name, curve in self.curves.items():
-            curve.setData(frames, scaled(getattr(made.certificate, name)) if made else frames)
+            curve.setData(frames, scaled(getattr(made.certificate, name)) if made and len(frames) else frames)
         if len(frames):
             self.plot.setXRange(frames[0] - 1, frames[-1] + 1, padding=0)
 
@@ -195,6 +195,8 @@ def note(made: SpanCertificate | None) -> tuple[str, str]:
     """Return what stands beside the title, and its colour."""
     if made is None:
         return "checking …", "muted"
+    if not made.frames:
+        return "no in-between", "muted"
     found = [p.severity for p in made.certificate.problems]
     for severity in ("error", "warning"):
         if count := found.count(severity):

@@ -43,6 +43,14 @@ def test_the_spans_of_the_layer_are_certified_when_the_hand_rests(hand, qtbot):
     assert hand.editor.certificates.of(*hand.session.layer.keyframes[1:]).frames == ()
 
 
+def test_a_breakdown_beside_a_keyframe_leaves_a_span_without_in_betweens(crossing, qtbot):
+    crossing.session.go_to(crossing.session.layer.frames()[1] - 1)
+    crossing.key(Qt.Key.Key_F6)
+    crossing.certify(qtbot)
+    assert certificate(crossing).frames == ()
+    assert crossing.editor.window.certificate_panel.section.note.text() == "no in-between"
+
+
 def test_while_the_hand_drags_nothing_is_certified(crossing, qtbot):
     first = certificate(crossing)
     assert first.severity_at(8) == "error"
