@@ -4,7 +4,7 @@ from PySide6.QtCore import QPoint, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QContextMenuEvent, QFont, QKeyEvent, QMouseEvent, QPainter, QPen, QWheelEvent
 from PySide6.QtWidgets import QMenu, QSizePolicy, QWidget
 
-from app.panels.spacing import SpacingView
+from app.panels.spacing import Spacing, SpacingView
 from app.theme import Theme
 
 WIDTH = 84
@@ -69,6 +69,13 @@ class TimingChart(SpacingView):
 
     def sizeHint(self) -> QSize:
         return QSize(WIDTH, self.height())
+
+    def show_spacing(self, spacing: Spacing | None) -> None:
+        """Show a span, or nothing; of other drawings none is under the pointer until it moves."""
+        shown = self.spacing
+        if spacing is None or shown is None or len(spacing.ticks) != len(shown.ticks):
+            self._hover = -1
+        super().show_spacing(spacing)
 
     @property
     def _live(self) -> bool:
@@ -207,22 +214,21 @@ class TimingChart(SpacingView):
     # painting
 
     def paintEvent(self, _: object) -> None:
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        if self._live:
-            font = QFont(self.font())
-            font.setPixelSize(10)
-            painter.setFont(font)
-            painter.setPen(QPen(self.theme.color("text"), 1.4))
-            places = [self.tick_place(i) for i in range(len(self.spacing.ticks) + 1)]
-            ys = [p.y() for p in places]
-            painter.drawLine(QPointF(LADDER, max(ys)), QPointF(LADDER, min(ys)))
-            for i in self._in_order():
-                self._paint_tick(painter, i)
-            self._paint_labels(painter)
-            if self.spacing.span.hold:
-                self._paint_held(painter)
-        painter.end()
+        with QPainter(self) as painter:  # ended whatever happens: under an open one an error ends the program
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            if self._live:
+                font = QFont(self.font())
+                font.setPixelSize(10)
+                painter.setFont(font)
+                painter.setPen(QPen(self.theme.color("text"), 1.4))
+                places = [self.tick_place(i) for i in range(len(self.spacing.ticks) + 1)]
+                ys = [p.y() for p in places]
+                painter.drawLine(QPointF(LADDER, max(ys)), QPointF(LADDER, min(ys)))
+                for i in self._in_order():
+                    self._paint_tick(painter, i)
+                self._paint_labels(painter)
+                if self.spacing.span.hold:
+                    self._paint_held(painter)
 
     def _in_order(self) -> list[int]:
         """Return the ticks' numbers, those that must not be covered last."""

@@ -227,22 +227,21 @@ class EasingPlot(SpacingView):
     # painting
 
     def paintEvent(self, _: object) -> None:
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        theme, box = self.theme, QRectF(0.5, 0.5, self.width() - 1, self.height() - 1)
-        painter.setPen(QPen(theme.color("line"), 1))
-        painter.setBrush(theme.color("raised"))
-        painter.drawRoundedRect(box, 7, 7)
-        painter.setClipRect(box)
-        if self.spacing is not None and self.isEnabled():
-            self._paint_axes(painter)
-            if self.spacing.span.hold:
-                self._paint_hold(painter)
-            else:
-                self._paint_curve(painter)
-                self._paint_drawings(painter)
-                self._paint_grips(painter)
-        painter.end()
+        with QPainter(self) as painter:  # ended whatever happens: under an open one an error ends the program
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            theme, box = self.theme, QRectF(0.5, 0.5, self.width() - 1, self.height() - 1)
+            painter.setPen(QPen(theme.color("line"), 1))
+            painter.setBrush(theme.color("raised"))
+            painter.drawRoundedRect(box, 7, 7)
+            painter.setClipRect(box)
+            if self.spacing is not None and self.isEnabled():
+                self._paint_axes(painter)
+                if self.spacing.span.hold:
+                    self._paint_hold(painter)
+                else:
+                    self._paint_curve(painter)
+                    self._paint_drawings(painter)
+                    self._paint_grips(painter)
 
     def _paint_axes(self, painter: QPainter) -> None:
         """Paint the heights of the keyframes and the playhead."""

@@ -368,16 +368,15 @@ class Track(QWidget):
             self._painted = self._certificates()
             self._picture = whole_picture(self)
         view, theme = self.view, self.theme
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.drawPixmap(0, 0, self._picture)
-        painter.setClipRect(QRectF(HEADER, RULER, self.width(), self.height()))
-        rows = RowPainter(painter, view, theme, self.certificates)
-        rows.paint(view.row_of(self.session.layer.id), self.session.layer, self.keys.chosen, self.hover_key)
-        rows.paint_grips(self.keys.chosen)
-        painter.setClipRect(QRectF(HEADER, 0, self.width(), self.height()))
-        paint_playhead(painter, view, theme, small_font(self.font(), bold=True))
-        painter.setClipping(False)
-        if self._drag is not None:
-            self._drag.paint(painter)
-        painter.end()
+        with QPainter(self) as painter:  # ended whatever happens: under an open one an error ends the program
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            painter.drawPixmap(0, 0, self._picture)
+            painter.setClipRect(QRectF(HEADER, RULER, self.width(), self.height()))
+            rows = RowPainter(painter, view, theme, self.certificates)
+            rows.paint(view.row_of(self.session.layer.id), self.session.layer, self.keys.chosen, self.hover_key)
+            rows.paint_grips(self.keys.chosen)
+            painter.setClipRect(QRectF(HEADER, 0, self.width(), self.height()))
+            paint_playhead(painter, view, theme, small_font(self.font(), bold=True))
+            painter.setClipping(False)
+            if self._drag is not None:
+                self._drag.paint(painter)

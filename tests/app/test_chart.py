@@ -352,3 +352,13 @@ def test_a_section_folds_at_its_title_and_stays_so(hand, panel, settings) -> Non
     QTest.mouseClick(panel.arrow, LEFT)
     assert panel.plot.isVisible()
     assert not settings.flag("folded/easing", True)
+
+
+def test_the_pointer_rests_on_a_tick_that_an_edit_takes_away(panel, hand) -> None:
+    chart = panel.chart
+    move_pointer(chart, chart.at(10), NONE, Qt.MouseButton.NoButton)
+    panel.session.apply("Step", set_step, 1, 1, 6)
+    assert len(chart.spacing.ticks) == 2
+    picture = chart.grab().toImage()
+    move_pointer(chart, QPoint(0, 0), NONE, Qt.MouseButton.NoButton)
+    assert picture == chart.grab().toImage()
