@@ -77,7 +77,8 @@ class Keys(QObject):
     def keyframes(self) -> tuple[Keyframe, ...]:
         """Return the selected keyframes, else the one at the playhead, without a word if there is none."""
         document = self.session.document
-        refs = self.chosen or {(self.session.layer.id, self.session.frame)}
+        chosen = self.chosen & _there(document)  # while another document opens they are still the last one's
+        refs = chosen or {(self.session.layer.id, self.session.frame)}
         found = (document.layer(i).keyframe_at(f) for i, f in sorted(refs))
         return tuple(k for k in found if k is not None)
 

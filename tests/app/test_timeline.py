@@ -105,6 +105,12 @@ def timeline(hand, monkeypatch):
 # selecting
 
 
+def test_another_document_is_opened_while_keyframes_are_selected(timeline):
+    timeline.click(timeline.key(3, 13))
+    timeline.session.new(film((1, 20)))
+    assert (timeline.keys.chosen, timeline.keys.keyframes()) == (frozenset(), timeline.session.layer.keyframes[:1])
+
+
 def test_clicks_select_keyframes_and_take_the_playhead_there(timeline):
     timeline.click(timeline.key(2, 13))
     assert timeline.keys.chosen == {(2, 13)}
