@@ -29,7 +29,7 @@ from app.recovery import state_folder
 from app.safekeeping import Safekeeping
 from app.session import Selection, Session
 from app.settings import Settings
-from app.theme import icon, palette, system_theme
+from app.theme import NO_BUTTON_ICONS, icon, palette, system_theme
 from app.view import LINES, ViewState
 from app.window import Window
 from core.model.edits import clear_anchors, clear_pins, set_stage, solve_again
@@ -378,6 +378,7 @@ def make_application() -> QApplication:
     app.setApplicationName("Inkbetween")
     app.setOrganizationName("Inkbetween")
     app.setStyle("Fusion")
+    app.setStyleSheet(NO_BUTTON_ICONS)
     app.setWindowIcon(QIcon(str(resources.icon("app"))))
     return app
 

@@ -137,13 +137,16 @@ def palette(theme: Theme) -> QPalette:
     return p
 
 
+NO_BUTTON_ICONS = "QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }"
+"""For the application: the buttons of a dialog ask for it before they have a window."""
+
+
 def style_sheet(theme: Theme) -> str:
     """Return the style sheet of the whole window."""
     t = theme
     return f"""
 * {{ font-size: 12px; }}
 QMainWindow, QDialog {{ background: {t.panel}; }}
-QDialogButtonBox {{ dialogbuttonbox-buttons-have-icons: 0; }}
 QWidget#backdrop {{ background: {t.background}; }}
 QMenuBar {{ background: {t.panel}; color: {t.text}; padding: 2px 6px; border-bottom: 1px solid {t.line}; }}
 QMenuBar::item {{ padding: 6px 10px; border-radius: 6px; background: transparent; }}

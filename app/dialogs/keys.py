@@ -136,11 +136,9 @@ def key_groups(table: ActionTable, tool: Tool | None) -> list[Group]:
 
 
 def _subjects(menu: str, names: list[str]) -> list[tuple[str, list[str]]]:
-    """Split the menus that hold two subjects."""
+    """Split the menu that holds two subjects."""
     tools = [n for n in names if n.startswith("tool.")]
-    playing = [n for n in names if n.startswith("play.")]
-    rest = [n for n in names if n not in tools and n not in playing]
-    return [("Tools", tools), (menu, rest), ("Time", playing)]
+    return [("Tools", tools), (menu, [n for n in names if n not in tools])]
 
 
 def _keys(table: ActionTable, name: str) -> str:
