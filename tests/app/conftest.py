@@ -129,8 +129,15 @@ def no_thread_is_left() -> Iterator[None]:
 
 
 @pytest.fixture(scope="session")
-def qapp() -> QApplication:
-    return make_application()
+def qapp() -> Iterator[QApplication]:
+    """The application; what a test has copied goes with it.
+
+    The offscreen display's clipboard is a static of Qt. It would free a Python object after the interpreter's end,
+    and the process would end with a segmentation fault.
+    """
+    app = make_application()
+    yield app
+    app.clipboard().clear()
 
 
 @pytest.fixture
