@@ -667,7 +667,7 @@ def test_a_file_is_not_replaced_without_force_and_the_ways_out_are_told(project,
     ways = "choose another place, replace with --force, or make the rest with --continue"
     assert capsys.readouterr().err == f"inkbetween: {out} exists already; {ways}\n"
     assert main(["export", project, str(out), "--continue"]) == 0
-    assert capsys.readouterr().out == "nothing to do, all 1 files were there already\n"
+    assert capsys.readouterr().out == "nothing to do, the file was there already\n"
     assert main(["export", project, str(out), "--overwrite", "--scale", "50%"]) == 0
     assert capsys.readouterr().out == f"{out}: 5 frames, 48 x 32 px\n"
 
