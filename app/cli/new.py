@@ -25,7 +25,7 @@ def new_parser() -> argparse.ArgumentParser:
         description="Make a project of two SVG drawings: the first frame shows the one, the last frame the other. "
         "The stage is as large as the first drawing; the second one is put in its middle. Or make one of a folder "
         "of SVG drawings, each a keyframe (walk.0001.svg, walk.0009.svg: the numbers are the frames; numbered 1, "
-        "2, 3 ... without a gap they are put 8 frames apart), or of the shape layers of a Lottie animation (.json).",
+        "2, 3 ... without a gap they are put 8 frames apart), or of the shape layers of a Lottie film (.json).",
     )
     parser.add_argument("before", metavar="BEFORE", help="the first keyframe (.svg), a folder of SVG, or a .json")
     parser.add_argument("after", metavar="AFTER", nargs="?", help="the last keyframe (.svg)")
