@@ -85,7 +85,7 @@ class SpanPanel(QWidget):
         self.compare.setCheckable(True)
         self.compare.setToolTip("Show linear and intrinsic beside each other, at t = 0, 0.2 ... 1")
         self.compare.clicked.connect(lambda on: self.view_state.set(arrangement="compare" if on else "overlaid"))
-        self.span_section.add_row("extra turns", self.turns, self.other_way)
+        self.span_section.add_row("turns", self.turns, self.other_way)
         self.placement = Segments(PLACEMENTS)
         self.placement.chosen.connect(self._on_placement)
         self.span_section.box.addWidget(self.placement)
