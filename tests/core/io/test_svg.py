@@ -453,7 +453,7 @@ def test_files_are_read_by_their_name_and_a_missing_one_is_a_sentence(tmp_path: 
     assert len(read_svg(tmp_path / "a.svg").drawings) == 1
     with pytest.raises(FileFormatError, match=r"^cannot import b\.svg: it is no SVG"):
         read_svg(tmp_path / "b.svg")
-    with pytest.raises(StorageError, match="No such file"):
+    with pytest.raises(StorageError, match="no such file"):
         read_svg(str(tmp_path / "c.svg"))
 
 
