@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QModelIndex, QPoint, QSize, Qt
-from PySide6.QtGui import QAction, QContextMenuEvent, QKeyEvent, QMouseEvent
+from PySide6.QtGui import QAction, QContextMenuEvent, QKeyEvent, QMouseEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QHBoxLayout,
@@ -28,7 +28,7 @@ from core.model.parts import check_open
 from core.model.sheet_edits import expose_drawing
 from core.model.timing import drawn_offsets
 
-ROW, COLUMN = 19, 76
+ROW, COLUMN, WIDEST_COLUMN = 19, 76, 132
 WIDTH = 290
 EDGE = 4
 """Px on either side of the lower edge of a drawing within which it is dragged."""
@@ -88,9 +88,19 @@ class SheetTable(QTableView):
 
     def _show_current(self) -> None:
         """Make the playhead's frame in the active layer the current cell, and keep it in sight."""
+        self._fit_columns()
         self._follow()
         self.viewport().update()
         self.horizontalHeader().viewport().update()
+
+    def _fit_columns(self) -> None:
+        """Give the columns the room that there is, for the layers' names."""
+        room = self.viewport().width() // max(1, self.sheet.columnCount())
+        self.horizontalHeader().setDefaultSectionSize(min(max(room, COLUMN), WIDEST_COLUMN))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._fit_columns()
 
     def _on_frame_changed(self, frame: int) -> None:
         """Follow the playhead; while the film plays only two rows are painted anew."""
