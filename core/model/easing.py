@@ -106,15 +106,15 @@ class Easing:
 
     def gentle(self, steepest: float, *, first: bool, last: bool) -> "Easing":
         """Return an easing at most as steep as `steepest` at the named ends: handles lean over just so far."""
-        pieces = self.pieces()
-        start = _leaning(pieces[0], steepest) if first else (self.x1, self.y1)
-        end = self.x2, self.y2
-        if last:
-            x, y = _leaning(1 - pieces[-1][::-1], steepest)
-            end = 1 - x, 1 - y
-        if (*start, *end) == (self.x1, self.y1, self.x2, self.y2):
-            return self
-        return replace(self, x1=start[0], y1=start[1], x2=end[0], y2=end[1])
+        gentle = self
+        for _ in range(2):  # an end without a handle of its own is as steep as the other end's handle makes it
+            if last and abs(gentle.slopes()[1]) > steepest:
+                x, y = _leaning(1 - gentle.pieces()[-1][::-1], steepest)
+                gentle = replace(gentle, x2=1 - x, y2=1 - y)
+            if first and abs(gentle.slopes()[0]) > steepest:
+                x, y = _leaning(gentle.pieces()[0], steepest)
+                gentle = replace(gentle, x1=x, y1=y)
+        return gentle
 
     def cut(self, ratio: float) -> "tuple[Easing, Easing] | None":
         """Return the two easings that run as this one does before and behind a ratio, each from 0 to 1 again.
@@ -189,10 +189,8 @@ def _slope(piece: FloatArray) -> float:
 
 
 def _leaning(piece: FloatArray, steepest: float) -> tuple[float, float]:
-    """Return where the first handle of a piece that starts at (0, 0) has to be, not to be too steep."""
-    (x, y), end = piece[1].tolist(), float(piece[3, 0])
-    if abs(_slope(piece)) <= steepest:
-        return x, y
+    """Return where the first handle of a piece that is too steep at its start, (0, 0), has to be."""
+    y, end = float(piece[1, 1]), float(piece[3, 0])
     if abs(y) <= UPRIGHT:  # no handle: the next point is what is too steep
         return end / 10, float(np.copysign(steepest * end / 10, piece[2, 1] or piece[3, 1]))
     x = min(abs(y) / steepest, end)

@@ -2,7 +2,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from core.errors import DocumentError
@@ -141,7 +141,10 @@ def test_slopes_are_those_of_the_curve(name, end):
     assert easing.slopes()[end] == pytest.approx(float(rise), abs=1e-3)
 
 
+@settings(max_examples=300)
 @given(RATIO, ANY_Y, RATIO, ANY_Y)
+@example(0.0, 0.0, 1.0, -2.0)  # leaning the one handle leaves the other end upright
+@example(0.0, 3.0, 1.0, 1.0)
 def test_a_gentle_easing_is_no_steeper_than_asked_and_a_flat_one_stays(x1, y1, x2, y2):
     easing = Easing(x1, y1, x2, y2)
     gentle = easing.gentle(3.0, first=True, last=True)
