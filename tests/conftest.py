@@ -6,6 +6,6 @@ from hypothesis import settings
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
-# before a change lands the examples are the same every time, so that a red run tells of the change; elsewhere they are new
+# before a change lands the examples are the same every time: a red run tells of the change; elsewhere they are new
 settings.register_profile("inkbetween", deadline=None, derandomize="CI" in os.environ)
 settings.load_profile("inkbetween")
