@@ -341,11 +341,6 @@ class Document:
         return replace(self, layers=tuple(layer if x.id == layer.id else x for x in self.layers))
 
 
-def ratio_in_span(before: Keyframe, after: Keyframe, frame: float) -> float:
-    """Return the linear time of `frame` in the span, 0 at the keyframe before and 1 at the one after."""
-    return (frame - before.frame) / (after.frame - before.frame)
-
-
 def as_rate(text: str) -> Fraction:
     """Return a frame rate from "24", "23.976" or "24000/1001"; raises DocumentError with one sentence."""
     wrong = f"{text[:40]!r} is no frame rate; write 24, 29.97 or 30000/1001"

@@ -1,10 +1,11 @@
 """What a layer shows at every frame: plans put into time, smoothed through keyframes, led by other layers."""
 
+import math
 from collections import OrderedDict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import Any, Protocol
 
 import numpy as np
@@ -58,7 +59,8 @@ class SpanMotion:
     @cached_property
     def easing(self) -> Easing:
         """The span's easing, not too steep where a smooth keyframe asks for a velocity."""
-        return gentle_easing(self.before, self.bend)
+        bend = self.bend
+        return self.before.span.easing.gentle(STEEPEST, first=bend.first is not None, last=bend.last is not None)
 
     def ratios(self, frames: Sequence[float]) -> FloatArray:
         """Return the linear time, 0 to 1, of the drawing that is shown at frames of the film."""
@@ -167,15 +169,17 @@ class Motions:
     def of(self, document: Document, layer: Layer, before: Keyframe, after: Keyframe) -> SpanMotion:
         """Return the motion of a span of a layer."""
         parent = self.parent_of(document, layer)
-        here = self._planned(layer, parent, before, after)
-        left, right = self._neighbours(layer, parent, before, after)
-        parts = (before, after, here.plan, here.carry, left and left.plan, right and right.plan)
-        above = tuple(_ancestors(document, layer))
-        key = (*map(id, parts[:3]), here.carry, *map(id, parts[4:]), *map(id, above))
+        i = layer.frames().index(before.frame)
+        here = self._planned(layer, parent, i)
+        left = self._planned(layer, parent, i - 1) if here.joins[0] else None
+        right = self._planned(layer, parent, i + 1) if here.joins[1] else None
+        spans = tuple((x.before, x.after, x.plan) if x else (None, None, None) for x in (here, left, right))
+        parts = (*chain.from_iterable(spans), *_ancestors(document, layer))
+        key = (here.carry, *map(id, parts))
         found = self._made.get(key)
         if found is None:
             motion = SpanMotion(before, after, here.plan, _bend(here, left, right), parent)
-            found = self._made[key] = ((*parts, *above), motion)  # the parts too: nothing else can take their ids
+            found = self._made[key] = (parts, motion)  # the parts too: nothing else can take their ids
         _touch(self._made, key, self._capacity)
         return found[1]
 
@@ -204,12 +208,15 @@ class Motions:
         outlines = tuple((carried(o.points, carry), o.closed) for o in keyframe.drawing.outlines)
         return _picture(outlines, keyframe.drawing.style, layer.opacity)
 
-    def _planned(self, layer: Layer, parent: LayerMotion | None, before: Keyframe, after: Keyframe) -> "_Planned":
+    def _planned(self, layer: Layer, parent: LayerMotion | None, i: int) -> "_Planned":
+        """Return the span that begins at the keyframe number `i` of a layer."""
+        before, after = layer.keyframes[i : i + 2]
+        joins = _joins(layer, i)
         if parent is None:
-            return _Planned(before, after, self._plans.plan(before, after, layer.id), STANDING)
+            return _Planned(before, after, self._plans.plan(before, after, layer.id), STANDING, joins)
         carry = parent.carry(before.frame, after.frame)
         plan = self._plans.plan(*self._led_keyframes(before, after, carry), layer.id)
-        return _Planned(before, after, plan, carry)
+        return _Planned(before, after, plan, carry, joins)
 
     def _led_keyframes(self, before: Keyframe, after: Keyframe, carry: Carry) -> tuple[Keyframe, Keyframe]:
         """Return `led_back`, the same objects as long as nothing changes, so that their plan is found again."""
@@ -220,28 +227,16 @@ class Motions:
         _touch(self._led, key, self._capacity)
         return found[1]
 
-    def _neighbours(
-        self, layer: Layer, parent: LayerMotion | None, before: Keyframe, after: Keyframe
-    ) -> "tuple[_Planned | None, _Planned | None]":
-        """Return the spans that smooth keyframes join to this one; a hold joins nothing."""
-        frames = layer.frames()
-        i = frames.index(before.frame)
-        found: list[_Planned | None] = []
-        for wanted, j in ((before.smooth, i - 1), (after.smooth, i + 1)):
-            joined = wanted and 0 <= j < len(frames) - 1 and not layer.keyframes[j].span.hold
-            ends = layer.keyframes[j : j + 2]
-            found.append(self._planned(layer, parent, *ends) if joined else None)
-        return found[0], found[1]
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Planned:
-    """A span, its plan, and how its parent carries it from its start to its end."""
+    """A span, its plan, how its parent carries it from start to end, and whether neighbours are joined to it."""
 
     before: Keyframe
     after: Keyframe
     plan: SpanPlan
     carry: Carry
+    joins: tuple[bool, bool]
 
     @property
     def length(self) -> int:
@@ -254,8 +249,13 @@ class _Planned:
 
     def velocities(self, *, last: bool) -> tuple[FloatArray, ...]:
         """Return the links' velocities at one end, px a frame, as they are seen on the stage."""
-        easing = self.before.span.easing.gentle(STEEPEST, first=not last, last=last)
-        found = end_velocities(self.plan, easing.slopes()[last], self.length, last=last)
+        easing = self.before.span.easing
+        if not self.stiff:
+            easing = easing.gentle(STEEPEST, first=self.joins[0], last=self.joins[1])
+        slope = easing.slopes()[last]
+        if math.isinf(slope):  # of a span that is not bent: nothing can follow that
+            slope = math.copysign(STEEPEST, slope)
+        found = end_velocities(self.plan, slope, self.length, last=last)
         return tuple(turned(v, self.carry) for v in found) if last else found
 
 
@@ -282,9 +282,14 @@ def _joined(left: _Planned, right: _Planned, *, own_is_last: bool) -> tuple[Floa
     return tuple(turned(v, own.carry.back()) for v in lacking) if own_is_last else lacking
 
 
-def gentle_easing(before: Keyframe, bend: Bend) -> Easing:
-    """Return the easing of a span, with finite slopes at the ends that are bent."""
-    return before.span.easing.gentle(STEEPEST, first=bend.first is not None, last=bend.last is not None)
+def _joins(layer: Layer, i: int) -> tuple[bool, bool]:
+    """Whether smooth keyframes join a span to the one before and the one after; a hold joins nothing."""
+    keys = layer.keyframes
+
+    def runs(j: int) -> bool:
+        return 0 <= j < len(keys) - 1 and not keys[j].span.hold
+
+    return keys[i].smooth and runs(i - 1), keys[i + 1].smooth and runs(i + 1)
 
 
 def drawing_picture(drawing: Drawing, opacity: float = 1.0) -> Picture:

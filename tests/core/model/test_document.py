@@ -15,7 +15,6 @@ from core.model.document import (
     Span,
     Stage,
     as_rate,
-    ratio_in_span,
 )
 from core.model.drawing import Drawing, Outline, Style
 
@@ -40,7 +39,6 @@ def test_around_gives_the_two_keyframes_that_enclose_a_frame(frames, frame):
         assert first <= frame <= second
         assert frames.index(second) == frames.index(first) + 1
         assert frame < second or second == frames[-1]
-        assert 0 <= ratio_in_span(before, after, frame) <= 1
 
 
 @given(st.sets(st.integers(1, 60), max_size=5).map(sorted), st.integers(1, 60))
