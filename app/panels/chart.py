@@ -37,19 +37,7 @@ class TimingChart(SpacingView):
     deletionWanted = Signal(int)
     hovered = Signal(int)  # number, -1 for none
 
-    keys = frozenset(
-        {
-            Qt.Key.Key_Escape,
-            Qt.Key.Key_Delete,
-            Qt.Key.Key_Backspace,
-            Qt.Key.Key_Left,
-            Qt.Key.Key_Right,
-            Qt.Key.Key_Up,
-            Qt.Key.Key_Down,
-            Qt.Key.Key_Plus,
-            Qt.Key.Key_Minus,
-        }
-    )
+    keys = SpacingView.keys | {Qt.Key.Key_Plus, Qt.Key.Key_Minus}
 
     def __init__(self, theme: Theme, parent: QWidget | None = None) -> None:
         super().__init__(theme, parent)

@@ -39,18 +39,6 @@ class EasingPlot(SpacingView):
     changed = Signal(str, object, object)  # label, Easing, merge key
     refused = Signal(str)
 
-    keys = frozenset(
-        {
-            Qt.Key.Key_Escape,
-            Qt.Key.Key_Delete,
-            Qt.Key.Key_Backspace,
-            Qt.Key.Key_Left,
-            Qt.Key.Key_Right,
-            Qt.Key.Key_Up,
-            Qt.Key.Key_Down,
-        }
-    )
-
     def __init__(self, theme: Theme, parent: QWidget | None = None) -> None:
         super().__init__(theme, parent)
         self.chosen: int | None = None

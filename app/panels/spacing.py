@@ -80,7 +80,17 @@ class Spacing:
 class SpacingView(QWidget):
     """A widget in which a t has its height; keys that it wants do not go to the menus while it has the focus."""
 
-    keys: frozenset[Qt.Key] = frozenset()
+    keys = frozenset(
+        {
+            Qt.Key.Key_Escape,
+            Qt.Key.Key_Delete,
+            Qt.Key.Key_Backspace,
+            Qt.Key.Key_Left,
+            Qt.Key.Key_Right,
+            Qt.Key.Key_Up,
+            Qt.Key.Key_Down,
+        }
+    )
 
     def __init__(self, theme: Theme, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -16,12 +16,13 @@ import msgspec
 import numpy as np
 
 from core.correspondence.pairing import Correspondence
-from core.errors import FileFormatError, InkbetweenError, StorageError
+from core.errors import FileFormatError, InkbetweenError
 from core.geometry.outline import FloatArray
 from core.io.film import ImportedFilm, ImportedLayer
 from core.io.lottie_parts import Placing, Shape, ShapePath, all_keys, growth, matrix_at
 from core.io.lottie_shapes import beziers, ellipse, polygons, rectangle
 from core.io.lottie_values import keys_of, number, vector_at
+from core.io.storage import read_whole
 from core.io.svg_notes import Notes
 from core.model.document import LONGEST, Keyframe, OutlinePair, Span
 from core.model.drawing import WIDEST_STROKE, Drawing, Outline, Style
@@ -69,7 +70,7 @@ def read_lottie(content: bytes | Path | str) -> ImportedFilm:
         The file cannot be read.
     """
     name = "" if isinstance(content, bytes) else Path(content).name
-    body = content if isinstance(content, bytes) else _bytes_of(Path(content))
+    body = content if isinstance(content, bytes) else read_whole(Path(content), LARGEST_FILE)
     try:
         return _Reader(_decoded(body)).read()
     except InkbetweenError as e:
@@ -77,17 +78,6 @@ def read_lottie(content: bytes | Path | str) -> ImportedFilm:
     except (KeyError, TypeError, AttributeError, IndexError, ValueError, OverflowError, RecursionError):
         what = "it is no Lottie animation, or it is damaged"
         raise FileFormatError(f"cannot import {name}: {what}" if name else what) from None
-
-
-def _bytes_of(path: Path) -> bytes:
-    try:
-        with path.open("rb") as file:
-            content = file.read(LARGEST_FILE + 1)
-    except OSError as e:
-        raise StorageError(f"cannot read {path}: {(e.strerror or str(e)).lower()}") from None
-    if len(content) > LARGEST_FILE:
-        raise FileFormatError(f"{path.name} is larger than {LARGEST_FILE >> 20} MB")
-    return content
 
 
 def _decoded(body: bytes) -> Any:

@@ -82,6 +82,26 @@ def _digest(content: bytes) -> bytes:
     return hashlib.blake2b(content, digest_size=16).digest()
 
 
+def read_whole(path: Path, most: int) -> bytes:
+    """Return the bytes of a file of another program, of a device too as long as it ends before `most`.
+
+    Raises
+    ------
+    StorageError
+        If it cannot be read.
+    FileFormatError
+        If it is larger than `most` bytes.
+    """
+    try:
+        with path.open("rb") as file:
+            content = file.read(most + 1)
+    except OSError as e:
+        raise StorageError(f"cannot read {path}: {reason(e)}") from None
+    if len(content) > most:
+        raise FileFormatError(f"{path.name} is larger than {most >> 20} MB; simplify it first")
+    return content
+
+
 def read_bounded(path: Path, most: int) -> bytes:
     """Return the bytes of a file.
 

@@ -12,12 +12,13 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
-from core.errors import FileFormatError, StorageError
+from core.errors import FileFormatError
 from core.geometry.curves import count_chords, flatten
 from core.geometry.outline import SMALLEST_SIZE, FloatArray, size
 from core.geometry.simplify import without_repeats
 from core.geometry.winding import even_odd
 from core.io.imported import Imported, ImportedDrawing
+from core.io.storage import read_whole
 from core.io.svg_notes import APPLIED, UNSUPPORTED, Notes
 from core.io.svg_path import Subpath, Trail, read_path, read_shape
 from core.io.svg_style import Look, Matrix, Paints, Sheet, href, joined, length, transform
@@ -88,24 +89,13 @@ def read_svg(
         `cancelled` said so.
     """
     name = "" if isinstance(content, bytes) else Path(content).name
-    body = content if isinstance(content, bytes) else _bytes_of(Path(content))
+    body = content if isinstance(content, bytes) else read_whole(Path(content), LARGEST_FILE)
     watch = Watch(len(body), progress, cancelled)
     try:
         root = parse_xml(body, watch)
         return _Reader(root, watch, tolerance).read()
     except FileFormatError as e:
         raise FileFormatError(f"cannot import {name}: {e}" if name else str(e)) from None
-
-
-def _bytes_of(path: Path) -> bytes:
-    try:
-        with path.open("rb") as file:
-            content = file.read(LARGEST_FILE + 1)
-    except OSError as e:
-        raise StorageError(f"cannot read {path}: {(e.strerror or str(e)).lower()}") from None
-    if len(content) > LARGEST_FILE:
-        raise FileFormatError(f"{path.name} is larger than {LARGEST_FILE >> 20} MB; simplify it first")
-    return content
 
 
 class _Reader:
